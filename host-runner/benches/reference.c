@@ -29,7 +29,7 @@
 #include <time.h>
 
 /* Secondary rays start this far off the surface, along the facing normal. */
-#define EPSILON 1e-7
+#define EPSILON 1e-9
 
 /* ---- vectors ---------------------------------------------------------- */
 
