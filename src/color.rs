@@ -1,0 +1,77 @@
+//! Linear colour.
+
+use core::ops::{Add, Mul};
+
+use crate::scalar::Scalar;
+
+/// A linear colour or light intensity; 0 is black, 1 the display's brightest. Scene data may exceed
+/// 1, the colour of a ray never does.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Color<T = f32> {
+    /// Red.
+    pub r: T,
+    /// Green.
+    pub g: T,
+    /// Blue.
+    pub b: T,
+}
+
+impl<T> Color<T> {
+    /// The colour of three channels.
+    pub const fn new(r: T, g: T, b: T) -> Self {
+        Self { r, g, b }
+    }
+}
+
+impl<T: Scalar> Color<T> {
+    /// No light.
+    pub const BLACK: Self = Self::new(T::ZERO, T::ZERO, T::ZERO);
+
+    /// Every channel limited to 0…1; NaN becomes 0.
+    #[inline(always)]
+    pub fn clamp(self) -> Self {
+        Self::new(self.r.clamp01(), self.g.clamp01(), self.b.clamp01())
+    }
+
+    /// All channels are 0.
+    #[inline(always)]
+    pub fn is_black(self) -> bool {
+        self.r == T::ZERO && self.g == T::ZERO && self.b == T::ZERO
+    }
+
+    /// All channels are finite.
+    pub fn is_finite(self) -> bool {
+        self.r.is_finite() && self.g.is_finite() && self.b.is_finite()
+    }
+
+    /// Luma `0.299 r + 0.587 g + 0.114 b` (ITU-R BT.601), in 0…1 for a colour in 0…1.
+    #[inline(always)]
+    pub fn luma(self) -> T {
+        T::from_f64(0.299) * self.r + T::from_f64(0.587) * self.g + T::from_f64(0.114) * self.b
+    }
+}
+
+impl<T: Scalar> Add for Color<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self::new(self.r + other.r, self.g + other.g, self.b + other.b)
+    }
+}
+
+/// Componentwise: light of one colour on a surface of another.
+impl<T: Scalar> Mul for Color<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self::new(self.r * other.r, self.g * other.g, self.b * other.b)
+    }
+}
+
+impl<T: Scalar> Mul<T> for Color<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: T) -> Self {
+        Self::new(self.r * factor, self.g * factor, self.b * factor)
+    }
+}

@@ -1,0 +1,142 @@
+//! What a surface is made of.
+
+use crate::color::Color;
+use crate::scalar::Scalar;
+
+/// The numbers that describe a material, as scene text gives them. All are ≥ 0; only the index of
+/// refraction may be 0, and only without refraction.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MaterialDescription<T = f32> {
+    /// Share of diffusely reflected light.
+    pub diffuse: Color<T>,
+    /// Strength of the highlight.
+    pub specular: Color<T>,
+    /// Share of the ambient light.
+    pub ambient: Color<T>,
+    /// Share of the mirror ray's colour; 0 casts none.
+    pub reflection: T,
+    /// Exponent of the highlight: larger is sharper.
+    pub shininess: T,
+    /// Share of the refracted ray's colour; 0 casts none.
+    pub refraction: T,
+    /// Index of refraction; exactly 1 casts no shadow and passes rays straight through.
+    pub index_of_refraction: T,
+}
+
+/// A material with the values that rendering derives from its description.
+///
+/// Invariants: `whole_shininess` is the shininess if that is a whole number that repeated squaring may
+/// raise, else [`Material::FRACTIONAL`]; `entering` and `leaving` follow from the index.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material<T = f32> {
+    description: MaterialDescription<T>,
+    entering: Interface<T>,
+    leaving: Interface<T>,
+    whole_shininess: u16,
+}
+
+/// One way through a surface: the arguments of [`crate::Vec3::refract`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Interface<T = f32> {
+    /// Index on the ray's side divided by the index beyond.
+    pub eta: T,
+    /// `1/eta² − 1`.
+    pub bend: T,
+}
+
+impl<T: Scalar> Material<T> {
+    /// [`Material::whole_shininess`] of a shininess that is fractional or very large.
+    pub const FRACTIONAL: u16 = u16::MAX;
+
+    /// A material; computes what rendering needs.
+    pub fn new(description: MaterialDescription<T>) -> Self {
+        let index = description.index_of_refraction;
+        // (n − 1)(n + 1) keeps all digits where n² − 1 would cancel.
+        let bend = (index - T::ONE) * (index + T::ONE);
+        let (entering, leaving) = if description.refraction > T::ZERO {
+            let inverse = T::ONE / index;
+            (
+                Interface { eta: inverse, bend },
+                Interface {
+                    eta: index,
+                    bend: -(bend * inverse * inverse),
+                },
+            )
+        } else {
+            Default::default()
+        };
+        let whole = description.shininess.to_u32();
+        let is_whole = whole <= u32::from(T::MAX_SQUARED_EXPONENT)
+            && T::from_i32(whole as i32) == description.shininess;
+        let whole_shininess = if is_whole {
+            whole as u16
+        } else {
+            Self::FRACTIONAL
+        };
+        Self::from_parts(description, entering, leaving, whole_shininess)
+    }
+
+    /// A material from values that [`Material::new`] has computed: for baked scenes.
+    pub const fn from_parts(
+        description: MaterialDescription<T>,
+        entering: Interface<T>,
+        leaving: Interface<T>,
+        whole_shininess: u16,
+    ) -> Self {
+        Self {
+            description,
+            entering,
+            leaving,
+            whole_shininess,
+        }
+    }
+
+    /// The numbers it was made from.
+    #[inline(always)]
+    pub const fn description(&self) -> &MaterialDescription<T> {
+        &self.description
+    }
+
+    /// For a ray that meets the side its geometric normal points to.
+    pub const fn entering(&self) -> Interface<T> {
+        self.entering
+    }
+
+    /// For a ray that comes from behind the surface.
+    pub const fn leaving(&self) -> Interface<T> {
+        self.leaving
+    }
+
+    /// The shininess as a whole exponent, or [`Material::FRACTIONAL`].
+    pub const fn whole_shininess(&self) -> u16 {
+        self.whole_shininess
+    }
+
+    /// Objects with an index of refraction of exactly 1 let all light pass.
+    #[inline(always)]
+    pub fn casts_shadow(&self) -> bool {
+        self.description.index_of_refraction != T::ONE
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn knows_whole_exponents() {
+        let whole = |shininess: f32| {
+            Material::new(MaterialDescription {
+                shininess,
+                ..Default::default()
+            })
+            .whole_shininess()
+        };
+        assert_eq!(whole(0.0), 0);
+        assert_eq!(whole(50.0), 50);
+        assert_eq!(whole(1024.0), 1024);
+        assert_eq!(whole(1025.0), Material::<f32>::FRACTIONAL);
+        assert_eq!(whole(50.5), Material::<f32>::FRACTIONAL);
+        assert_eq!(whole(1e30), Material::<f32>::FRACTIONAL);
+    }
+}

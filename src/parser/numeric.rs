@@ -1,0 +1,458 @@
+//! The numeric dialect: one record a line, numbers separated by blanks.
+//!
+//! | record | numbers | meaning |
+//! |---|---|---|
+//! | 1 | 1 | number of objects that follow |
+//! | 2 | 3 | camera position |
+//! | 3 | 2 | image width and height |
+//! | 4 | 9 | light: position, specular intensity, diffuse intensity; with 8 numbers the last is repeated |
+//! | 5 | 1 | ambient intensity |
+//! | 6 | 1 | 1 = sky gradient, 0 = background colour |
+//! | 7 | 3 | background colour |
+//! | 8… | | one object each: kind, geometry, material |
+//!
+//! Kind 0 is a sphere (centre, radius), 1 a plane (normal, distance), 2 a triangle (three vertices,
+//! then four placeholders for normal and distance). The material is diffuse, specular and ambient
+//! colour, reflection, shininess, refraction, index of refraction.
+
+use super::decimal::{DecimalError, FromDecimal};
+use super::error::{Excerpt, Expected, Found, ParseError, Range, place};
+use super::{Report, lexeme};
+use crate::background::Background;
+use crate::camera::{Camera, Resolution};
+use crate::color::Color;
+use crate::light::Light;
+use crate::material::MaterialDescription;
+use crate::scalar::Scalar;
+use crate::scene::{Pool, PoolsMut, SceneError};
+use crate::shape::ShapeError;
+use crate::vec3::Vec3;
+
+/// Reads a scene into empty pools. After an error they hold a part of it.
+pub(super) fn read<T: Scalar + FromDecimal>(
+    text: &[u8],
+    pools: &mut PoolsMut<'_, T>,
+) -> Result<Report, ParseError> {
+    let mut records = Records::new(text);
+    let mut report = Report::default();
+
+    records.begin();
+    let objects = records.whole("number of objects", 0, u32::MAX)?;
+    records.end()?;
+
+    records.begin();
+    pools.set_camera(Camera {
+        position: records.vector([
+            "camera position x",
+            "camera position y",
+            "camera position z",
+        ])?,
+    });
+    records.end()?;
+
+    records.begin();
+    pools.set_resolution(Resolution {
+        width: records.whole("image width", 1, u32::from(u16::MAX))? as u16,
+        height: records.whole("image height", 1, u32::from(u16::MAX))? as u16,
+    });
+    records.end()?;
+
+    records.begin();
+    let first = records.peek_word();
+    let light = read_light(&mut records, &mut report)?;
+    records.end()?;
+    if let Err(SceneError::PoolFull { pool, capacity }) = pools.add_light(light) {
+        return Err(records.no_room(first, pool, capacity, None));
+    }
+
+    records.begin();
+    pools.set_ambient(
+        records
+            .number("ambient intensity", Range::NotNegative)?
+            .value,
+    );
+    records.end()?;
+
+    records.begin();
+    let sky = records.digit("background flag", Range::Flag, 1)? == 1;
+    records.end()?;
+
+    records.begin();
+    pools.set_background(Background {
+        color: records.color([
+            "red of the background colour",
+            "green of the background colour",
+            "blue of the background colour",
+        ])?,
+        sky,
+    });
+    records.end()?;
+
+    for number in 1..=objects {
+        records.begin();
+        read_object(&mut records, pools, number, objects)?;
+    }
+
+    records.begin();
+    if let Some(word) = records.word() {
+        return Err(records.error_at(
+            word,
+            Expected::EndOfScene { objects },
+            Found::Word(Excerpt::new(word)),
+        ));
+    }
+    Ok(report)
+}
+
+fn read_light<T: Scalar + FromDecimal>(
+    records: &mut Records<'_>,
+    report: &mut Report,
+) -> Result<Light<T>, ParseError> {
+    let position = records.vector(["light position x", "light position y", "light position z"])?;
+    let specular = records.color([
+        "red of the light's specular intensity",
+        "green of the light's specular intensity",
+        "blue of the light's specular intensity",
+    ])?;
+    let red = records.number("red of the light's diffuse intensity", Range::NotNegative)?;
+    let green = records.number("green of the light's diffuse intensity", Range::NotNegative)?;
+    // The published example gives 8 numbers here.
+    let blue = if records.is_at_end() {
+        report.short_light_line = Some(records.place().0);
+        green
+    } else {
+        records.number("blue of the light's diffuse intensity", Range::NotNegative)?
+    };
+    Ok(Light {
+        position,
+        specular,
+        diffuse: Color::new(red.value, green.value, blue.value),
+    })
+}
+
+fn read_object<T: Scalar + FromDecimal>(
+    records: &mut Records<'_>,
+    pools: &mut PoolsMut<'_, T>,
+    number: u32,
+    of: u32,
+) -> Result<(), ParseError> {
+    let Some(first) = records.word() else {
+        return Err(records.error_behind(Expected::Object { number, of }));
+    };
+    let kind = records.digit_of(first, "kind of the object", Range::ObjectKind, 2)?;
+    let pool = match kind {
+        0 => Pool::Spheres,
+        1 => Pool::Planes,
+        _ => Pool::Triangles,
+    };
+    if let Err(SceneError::PoolFull { pool, capacity }) = pools.has_room(pool) {
+        return Err(records.no_room(first, pool, capacity, Some(number)));
+    }
+    // Where the geometry begins: what an error about all of it points at.
+    let geometry = records.peek_word();
+    let result = match pool {
+        Pool::Spheres => {
+            let center: Vec3<T> = records.vector([
+                "sphere's centre x",
+                "sphere's centre y",
+                "sphere's centre z",
+            ])?;
+            let radius: Number<'_, T> = records.number("sphere's radius", Range::Radius)?;
+            if !(radius.value > T::ZERO && (radius.value * radius.value).is_finite()) {
+                return Err(records.unfit("sphere's radius", Range::Radius, radius.word));
+            }
+            let material = read_material(records)?;
+            records.end()?;
+            pools.add_sphere(center, radius.value, material)
+        }
+        Pool::Planes => {
+            let normal: Vec3<T> =
+                records.vector(["plane's normal x", "plane's normal y", "plane's normal z"])?;
+            if normal.try_normalize().is_none() {
+                return Err(records.unfit("plane's normal", Range::Direction, geometry));
+            }
+            let distance = records.number("plane's distance", Range::Finite)?;
+            let material = read_material(records)?;
+            records.end()?;
+            let result = pools.add_plane(normal, distance.value, material);
+            if let Err(SceneError::Shape(ShapeError::DistanceTooLarge)) = result {
+                return Err(records.unfit("plane's distance", Range::Distance, distance.word));
+            }
+            result
+        }
+        _ => {
+            let vertices = [
+                records.vector(["first vertex x", "first vertex y", "first vertex z"])?,
+                records.vector(["second vertex x", "second vertex y", "second vertex z"])?,
+                records.vector(["third vertex x", "third vertex y", "third vertex z"])?,
+            ];
+            for name in [
+                "placeholder of the normal x",
+                "placeholder of the normal y",
+                "placeholder of the normal z",
+                "placeholder of the distance",
+            ] {
+                records.number::<T>(name, Range::Finite)?;
+            }
+            let material = read_material(records)?;
+            records.end()?;
+            pools.add_triangle(vertices, material)
+        }
+    };
+    match result {
+        Ok(()) => Ok(()),
+        Err(SceneError::PoolFull { pool, capacity }) => {
+            Err(records.no_room(first, pool, capacity, Some(number)))
+        }
+        Err(SceneError::Shape(_)) => {
+            Err(records.unfit("triangle", Range::TriangleWithArea, geometry))
+        }
+    }
+}
+
+fn read_material<T: Scalar + FromDecimal>(
+    records: &mut Records<'_>,
+) -> Result<MaterialDescription<T>, ParseError> {
+    let diffuse = records.color([
+        "red diffuse colour",
+        "green diffuse colour",
+        "blue diffuse colour",
+    ])?;
+    let specular = records.color([
+        "red specular colour",
+        "green specular colour",
+        "blue specular colour",
+    ])?;
+    let ambient = records.color([
+        "red ambient colour",
+        "green ambient colour",
+        "blue ambient colour",
+    ])?;
+    let reflection = records.number("reflection", Range::NotNegative)?.value;
+    let shininess = records.number("shininess", Range::NotNegative)?.value;
+    let refraction = records.number("refraction", Range::NotNegative)?.value;
+    let index = records.number("index of refraction", Range::NotNegative)?;
+    if refraction > T::ZERO && index.value == T::ZERO {
+        return Err(records.unfit("index of refraction", Range::RefractiveIndex, index.word));
+    }
+    Ok(MaterialDescription {
+        diffuse,
+        specular,
+        ambient,
+        reflection,
+        shininess,
+        refraction,
+        index_of_refraction: index.value,
+    })
+}
+
+/// A number and the word it was written as.
+#[derive(Clone, Copy)]
+struct Number<'t, T> {
+    value: T,
+    word: &'t [u8],
+}
+
+/// Reads a text record by record.
+struct Records<'t> {
+    text: &'t [u8],
+    /// What is not read yet.
+    rest: &'t [u8],
+    /// Offset just behind the last word that was read.
+    behind: usize,
+}
+
+impl<'t> Records<'t> {
+    fn new(text: &'t [u8]) -> Self {
+        Self {
+            text,
+            rest: text,
+            behind: 0,
+        }
+    }
+
+    /// Goes to the next line with a word, or to the end of the text.
+    fn begin(&mut self) {
+        if let Ok((rest, ())) = lexeme::empty_lines(self.rest) {
+            self.rest = rest;
+        }
+    }
+
+    /// Ends a record: only blanks and a comment may follow.
+    fn end(&mut self) -> Result<(), ParseError> {
+        match lexeme::end_of_line(self.rest) {
+            Ok((rest, ())) => {
+                self.rest = rest;
+                Ok(())
+            }
+            Err(_) => {
+                let word = self.peek_word();
+                Err(self.error_at(word, Expected::EndOfLine, Found::Word(Excerpt::new(word))))
+            }
+        }
+    }
+
+    /// The next word of the line.
+    fn word(&mut self) -> Option<&'t [u8]> {
+        let (rest, word) = lexeme::word(self.rest).ok()?;
+        if word.is_some() {
+            self.rest = rest;
+            self.behind = self.text.len() - rest.len();
+        }
+        word
+    }
+
+    /// The next word of the line, not taken; empty if there is none.
+    fn peek_word(&self) -> &'t [u8] {
+        match lexeme::word(self.rest) {
+            Ok((_, Some(word))) => word,
+            _ => &[],
+        }
+    }
+
+    fn is_at_end(&self) -> bool {
+        self.peek_word().is_empty()
+    }
+
+    /// Line and column just behind the last word that was read.
+    fn place(&self) -> (u32, u32) {
+        place(self.text, self.behind)
+    }
+
+    /// A finite number of a range that is not stricter than [`Range::NotNegative`]; stricter ones are
+    /// the caller's to check.
+    fn number<T: Scalar + FromDecimal>(
+        &mut self,
+        name: &'static str,
+        range: Range,
+    ) -> Result<Number<'t, T>, ParseError> {
+        let expected = Expected::Number { name, range };
+        let Some(word) = self.word() else {
+            return Err(self.error_behind(expected));
+        };
+        match T::from_decimal(word) {
+            Ok(value) if range == Range::NotNegative && value < T::ZERO => {
+                Err(self.unfit(name, range, word))
+            }
+            Ok(value) => Ok(Number { value, word }),
+            Err(DecimalError::NotANumber) => Err(self.unfit(name, range, word)),
+            Err(DecimalError::TooLarge) => {
+                Err(self.error_at(word, expected, Found::TooLarge(Excerpt::new(word), T::NAME)))
+            }
+        }
+    }
+
+    fn vector<T: Scalar + FromDecimal>(
+        &mut self,
+        [x, y, z]: [&'static str; 3],
+    ) -> Result<Vec3<T>, ParseError> {
+        Ok(Vec3::new(
+            self.number(x, Range::Finite)?.value,
+            self.number(y, Range::Finite)?.value,
+            self.number(z, Range::Finite)?.value,
+        ))
+    }
+
+    fn color<T: Scalar + FromDecimal>(
+        &mut self,
+        [r, g, b]: [&'static str; 3],
+    ) -> Result<Color<T>, ParseError> {
+        Ok(Color::new(
+            self.number(r, Range::NotNegative)?.value,
+            self.number(g, Range::NotNegative)?.value,
+            self.number(b, Range::NotNegative)?.value,
+        ))
+    }
+
+    /// A whole number in digits only.
+    fn whole(&mut self, name: &'static str, min: u32, max: u32) -> Result<u32, ParseError> {
+        let range = Range::Whole { min, max };
+        let Some(word) = self.word() else {
+            return Err(self.error_behind(Expected::Number { name, range }));
+        };
+        match digits(word) {
+            Some(value) if (min..=max).contains(&value) => Ok(value),
+            _ => Err(self.unfit(name, range, word)),
+        }
+    }
+
+    fn digit(&mut self, name: &'static str, range: Range, max: u32) -> Result<u32, ParseError> {
+        let Some(word) = self.word() else {
+            return Err(self.error_behind(Expected::Number { name, range }));
+        };
+        self.digit_of(word, name, range, max)
+    }
+
+    fn digit_of(
+        &self,
+        word: &[u8],
+        name: &'static str,
+        range: Range,
+        max: u32,
+    ) -> Result<u32, ParseError> {
+        match digits(word) {
+            Some(value) if value <= max => Ok(value),
+            _ => Err(self.unfit(name, range, word)),
+        }
+    }
+
+    /// A word that is not in its range.
+    fn unfit(&self, name: &'static str, range: Range, word: &[u8]) -> ParseError {
+        self.error_at(
+            word,
+            Expected::Number { name, range },
+            Found::Word(Excerpt::new(word)),
+        )
+    }
+
+    /// A light or an object, which begins with this word, does not fit.
+    fn no_room(&self, word: &[u8], pool: Pool, capacity: usize, object: Option<u32>) -> ParseError {
+        self.error_at(
+            word,
+            Expected::Room {
+                pool,
+                capacity,
+                object,
+            },
+            Found::Word(Excerpt::new(word)),
+        )
+    }
+
+    /// An error about a word of this text.
+    fn error_at(&self, word: &[u8], expected: Expected, found: Found) -> ParseError {
+        let offset = (word.as_ptr() as usize).wrapping_sub(self.text.as_ptr() as usize);
+        self.error(offset.min(self.text.len()), expected, found)
+    }
+
+    /// An error about something missing, just behind the last word.
+    fn error_behind(&self, expected: Expected) -> ParseError {
+        let is_last = matches!(lexeme::empty_lines(self.rest), Ok(([], ())));
+        let found = if is_last {
+            Found::EndOfText
+        } else {
+            Found::EndOfLine
+        };
+        self.error(self.behind, expected, found)
+    }
+
+    fn error(&self, offset: usize, expected: Expected, found: Found) -> ParseError {
+        let (line, column) = place(self.text, offset);
+        ParseError {
+            offset,
+            line,
+            column,
+            expected,
+            found,
+        }
+    }
+}
+
+/// The value of a word of digits, at most `u32::MAX`.
+fn digits(word: &[u8]) -> Option<u32> {
+    let mut value = 0_u32;
+    for byte in word {
+        let digit = byte.checked_sub(b'0').filter(|digit| *digit < 10)?;
+        value = value.saturating_mul(10).saturating_add(u32::from(digit));
+    }
+    (!word.is_empty()).then_some(value)
+}

@@ -1,0 +1,147 @@
+//! Infinite planes.
+
+use super::{ShapeError, Surface, SurfacePoint};
+use crate::ray::{Ray, origin_offset};
+use crate::scalar::Scalar;
+use crate::vec3::Vec3;
+
+/// The plane of the points with `normal·p = height`; the `distance` of scene text is `−height`.
+///
+/// Invariants: `normal` has length 1, `height` is finite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane<T = f32> {
+    normal: Vec3<T>,
+    height: T,
+    surface: Surface,
+}
+
+impl<T: Scalar> Plane<T> {
+    /// The plane of the points with `normal·p + distance = 0`. The normal may have any length but 0;
+    /// the distance is divided by that length too.
+    ///
+    /// # Errors
+    ///
+    /// [`ShapeError::NormalZero`], [`ShapeError::DistanceTooLarge`].
+    pub fn new(normal: Vec3<T>, distance: T, surface: Surface) -> Result<Self, ShapeError> {
+        let (normal, length) = normal.try_normalize().ok_or(ShapeError::NormalZero)?;
+        let height = -(distance / length);
+        if !height.is_finite() {
+            return Err(ShapeError::DistanceTooLarge);
+        }
+        Ok(Self::from_parts(normal, height, surface))
+    }
+
+    /// A plane from values that [`Plane::new`] has computed: for baked scenes.
+    pub const fn from_parts(normal: Vec3<T>, height: T, surface: Surface) -> Self {
+        Self {
+            normal,
+            height,
+            surface,
+        }
+    }
+
+    /// Unit normal.
+    pub const fn normal(&self) -> Vec3<T> {
+        self.normal
+    }
+
+    /// `normal·p` of its points.
+    pub const fn height(&self) -> T {
+        self.height
+    }
+
+    pub(crate) fn set_material(&mut self, material: u32) {
+        self.surface.material = material;
+    }
+
+    /// Material and place in the file.
+    #[inline(always)]
+    pub const fn surface(&self) -> Surface {
+        self.surface
+    }
+
+    /// Distance of the crossing within `0 < t ≤ t_max`. A ray in the plane, parallel to it or leaving
+    /// it does not cross it.
+    #[inline(always)]
+    pub fn intersect(&self, ray: &Ray<T>, t_max: T) -> Option<T> {
+        if ray.leaves == self.surface.number {
+            return None;
+        }
+        let t = (self.height - self.normal.dot(ray.origin)) / self.normal.dot(ray.direction);
+        (t > T::ZERO && t <= t_max).then_some(t)
+    }
+
+    /// Whether the ray crosses the plane within `0 < t < t_max`.
+    #[inline(always)]
+    pub fn occludes(&self, ray: &Ray<T>, t_max: T) -> bool {
+        matches!(self.intersect(ray, t_max), Some(t) if t < t_max)
+    }
+
+    /// The point at distance `t`, projected back onto the plane: at grazing angles `t` is uncertain by
+    /// `u/cos θ`.
+    #[inline(always)]
+    pub fn surface_point(&self, ray: &Ray<T>, t: T) -> SurfacePoint<T> {
+        let n = self.normal;
+        let approximate = ray.at(t);
+        let point = approximate - n * (n.dot(approximate) - self.height);
+        let components = (n.x * point.x).abs() + (n.y * point.y).abs() + (n.z * point.z).abs();
+        SurfacePoint {
+            point,
+            normal: n,
+            offset: origin_offset(components, self.height.abs()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SURFACE: Surface = Surface {
+        material: 0,
+        number: 7,
+    };
+
+    #[test]
+    fn normalises_the_normal_and_the_distance_with_it() {
+        let plane = Plane::new(Vec3::new(0.0_f32, 2.0, 0.0), 3.0, SURFACE).unwrap();
+        assert_eq!(plane.normal(), Vec3::new(0.0, 1.0, 0.0));
+        assert_eq!(plane.height(), -1.5);
+    }
+
+    #[test]
+    fn is_met_from_both_sides_but_not_along_itself() {
+        let plane = Plane::new(Vec3::new(0.0_f32, 1.0, 0.0), 1.0, SURFACE).unwrap();
+        let t = |y, dy, dz| {
+            let ray = Ray::new(Vec3::new(0.0, y, 0.0), Vec3::new(0.0, dy, dz));
+            plane.intersect(&ray, f32::MAX)
+        };
+        assert_eq!(t(1.0, -1.0, 0.0), Some(2.0));
+        assert_eq!(t(-3.0, 1.0, 0.0), Some(2.0));
+        assert_eq!(t(1.0, 1.0, 0.0), None);
+        assert_eq!(t(1.0, 0.0, 1.0), None);
+        assert_eq!(t(-1.0, 0.0, 1.0), None);
+    }
+
+    #[test]
+    fn a_ray_that_leaves_it_does_not_meet_it() {
+        let plane = Plane::new(Vec3::new(0.0_f32, 1.0, 0.0), 1.0, SURFACE).unwrap();
+        let mut ray = Ray::new(Vec3::new(0.0, -0.9, 0.0), Vec3::new(0.0, -1.0, 0.0));
+        assert!(plane.intersect(&ray, f32::MAX).is_some());
+        ray.leaves = SURFACE.number;
+        assert_eq!(plane.intersect(&ray, f32::MAX), None);
+    }
+
+    #[test]
+    fn refuses_what_is_no_plane() {
+        let new = |normal, distance| Plane::new(normal, distance, SURFACE).err();
+        assert_eq!(
+            new(Vec3::new(0.0_f32, -0.0, 0.0), 1.0),
+            Some(ShapeError::NormalZero)
+        );
+        assert_eq!(
+            new(Vec3::new(0.0_f32, 1e-30, 0.0), 1e30),
+            Some(ShapeError::DistanceTooLarge)
+        );
+    }
+}

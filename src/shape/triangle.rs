@@ -1,0 +1,298 @@
+//! Triangles.
+
+use super::{ShapeError, Surface, SurfacePoint, extent};
+use crate::ray::{Ray, origin_offset};
+use crate::scalar::Scalar;
+use crate::vec3::Vec3;
+
+/// A triangle, seen from both sides.
+///
+/// Invariants: `normal = normalize((v3 − v1) × (v2 − v1))`; the ball around `ball_center` holds the
+/// three vertices with room for the rounding of its own construction; `offset` is an upper bound of
+/// the origin offset anywhere on the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Triangle<T = f32> {
+    ball_center: Vec3<T>,
+    ball_radius_squared: T,
+    vertices: [Vec3<T>; 3],
+    normal: Vec3<T>,
+    offset: T,
+    surface: Surface,
+}
+
+/// Where on a triangle: the weights of its second and third vertex.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Barycentric<T> {
+    /// Weight of the second vertex, in 0…1.
+    pub v2: T,
+    /// Weight of the third vertex, in 0…1.
+    pub v3: T,
+}
+
+impl<T: Scalar> Triangle<T> {
+    /// A triangle; computes what rendering needs.
+    ///
+    /// # Errors
+    ///
+    /// [`ShapeError::NoArea`] when two edges enclose an angle whose sine is below four units of
+    /// rounding, [`ShapeError::EdgeTooLong`].
+    pub fn new(vertices: [Vec3<T>; 3], surface: Surface) -> Result<Self, ShapeError> {
+        let [v1, v2, v3] = vertices;
+        for edge in [v2 - v1, v3 - v1, v3 - v2] {
+            if !edge.is_finite() {
+                return Err(ShapeError::EdgeTooLong);
+            }
+        }
+        // Unit edges: the product of their directions neither under- nor overflows, and its length is
+        // the sine of the angle between them.
+        let (to_v2, _) = (v2 - v1).try_normalize().ok_or(ShapeError::NoArea)?;
+        let (to_v3, _) = (v3 - v1).try_normalize().ok_or(ShapeError::NoArea)?;
+        let (normal, sine) = to_v3
+            .cross(to_v2)
+            .try_normalize()
+            .ok_or(ShapeError::NoArea)?;
+        if !(sine > T::TWO * T::TWO * T::EPSILON) {
+            return Err(ShapeError::NoArea);
+        }
+        let (ball_center, ball_radius_squared) = bounding_ball(vertices);
+        // Σ|nᵢPᵢ| ≤ √3·extent < 2·extent.
+        let extent = extent(v1).max(extent(v2)).max(extent(v3));
+        Ok(Self::from_parts(
+            vertices,
+            normal,
+            ball_center,
+            ball_radius_squared,
+            origin_offset(T::TWO * extent, extent),
+            surface,
+        ))
+    }
+
+    /// A triangle from values that [`Triangle::new`] has computed: for baked scenes.
+    pub const fn from_parts(
+        vertices: [Vec3<T>; 3],
+        normal: Vec3<T>,
+        ball_center: Vec3<T>,
+        ball_radius_squared: T,
+        offset: T,
+        surface: Surface,
+    ) -> Self {
+        Self {
+            ball_center,
+            ball_radius_squared,
+            vertices,
+            normal,
+            offset,
+            surface,
+        }
+    }
+
+    /// The vertices, in the order of the file.
+    pub const fn vertices(&self) -> [Vec3<T>; 3] {
+        self.vertices
+    }
+
+    /// Unit normal.
+    pub const fn normal(&self) -> Vec3<T> {
+        self.normal
+    }
+
+    /// Centre of the bounding ball.
+    pub const fn ball_center(&self) -> Vec3<T> {
+        self.ball_center
+    }
+
+    /// Square of the radius of the bounding ball, rounded up.
+    pub const fn ball_radius_squared(&self) -> T {
+        self.ball_radius_squared
+    }
+
+    /// Upper bound of the origin offset on this triangle.
+    pub const fn offset(&self) -> T {
+        self.offset
+    }
+
+    pub(crate) fn set_material(&mut self, material: u32) {
+        self.surface.material = material;
+    }
+
+    /// Material and place in the file.
+    #[inline(always)]
+    pub const fn surface(&self) -> Surface {
+        self.surface
+    }
+
+    /// Whether the ray's line may come close enough to the triangle for the exact test to hit.
+    ///
+    /// Never wrong in the other direction. With `R` the ball's radius, `b` the distance along the ray to
+    /// the ball's centre and `u` the rounding unit, the distance `l` computed here and the edges of the
+    /// exact test are each off by less than `s = 8u(|b| + R)` together, which changes `l²` by
+    /// `2sR = 16u(|b|R + R²) ≤ 64u(b² + R²)`: the first term is added here, the second when the ball is
+    /// made.
+    #[inline(always)]
+    fn may_meet(&self, ray: &Ray<T>) -> bool {
+        let f = ray.origin - self.ball_center;
+        let b = -f.dot(ray.direction);
+        let l = f + ray.direction * b;
+        l.dot(l) <= self.ball_radius_squared + ball_slack::<T>() * (b * b)
+    }
+
+    /// Distance and place of the crossing within `0 < t ≤ t_max`.
+    ///
+    /// Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013: the vertices
+    /// are sheared so that the ray is an axis; the signs of the three edge functions then agree between
+    /// triangles that share an edge, so that no ray passes between them. Where an edge function rounds
+    /// to 0 its sign is computed again, exactly, with two-products (the paper uses double precision,
+    /// which a microcontroller would have to emulate).
+    #[inline]
+    pub fn intersect(&self, ray: &Ray<T>, t_max: T) -> Option<(T, Barycentric<T>)> {
+        if ray.leaves == self.surface.number || !self.may_meet(ray) {
+            return None;
+        }
+        // Turn the axes so that z is the ray's largest component; the winding does not matter here.
+        let turn = Turn::largest_to_z(ray.direction);
+        let d = turn.apply(ray.direction);
+        let scale = T::ONE / d.z;
+        let (shear_x, shear_y) = (d.x / d.z, d.y / d.z);
+        let shear = |vertex: Vec3<T>| {
+            let v = turn.apply(vertex - ray.origin);
+            Vec3::new(v.x - shear_x * v.z, v.y - shear_y * v.z, scale * v.z)
+        };
+        let [v1, v2, v3] = self.vertices;
+        let (a, b, c) = (shear(v1), shear(v2), shear(v3));
+        let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
+        // Inside: no two edge functions of opposite sign.
+        let inside = (u >= T::ZERO && v >= T::ZERO && w >= T::ZERO)
+            || (u <= T::ZERO && v <= T::ZERO && w <= T::ZERO);
+        let determinant = u + v + w;
+        if !inside || determinant == T::ZERO {
+            return None;
+        }
+        let inverse = T::ONE / determinant;
+        let t = (u * a.z + v * b.z + w * c.z) * inverse;
+        if t > T::ZERO && t <= t_max {
+            let place = Barycentric {
+                v2: v * inverse,
+                v3: w * inverse,
+            };
+            Some((t, place))
+        } else {
+            None
+        }
+    }
+
+    /// Whether the ray crosses the triangle within `0 < t < t_max`.
+    #[inline]
+    pub fn occludes(&self, ray: &Ray<T>, t_max: T) -> bool {
+        matches!(self.intersect(ray, t_max), Some((t, _)) if t < t_max)
+    }
+
+    /// The point at a place on the triangle: interpolated between the vertices, it lies as close to the
+    /// triangle as its own coordinates allow, however far the ray has come.
+    #[inline(always)]
+    pub fn surface_point(&self, place: Barycentric<T>) -> SurfacePoint<T> {
+        let [v1, v2, v3] = self.vertices;
+        let weight = T::ONE - place.v2 - place.v3;
+        SurfacePoint {
+            point: v1 * weight + v2 * place.v2 + v3 * place.v3,
+            normal: self.normal,
+            offset: self.offset,
+        }
+    }
+}
+
+/// A cyclic exchange of axes.
+#[derive(Clone, Copy)]
+enum Turn {
+    None,
+    XToZ,
+    YToZ,
+}
+
+impl Turn {
+    #[inline(always)]
+    fn largest_to_z<T: Scalar>(direction: Vec3<T>) -> Self {
+        let d = direction.abs();
+        if d.x > d.y && d.x > d.z {
+            Self::XToZ
+        } else if d.y > d.z {
+            Self::YToZ
+        } else {
+            Self::None
+        }
+    }
+
+    #[inline(always)]
+    fn apply<T: Scalar>(self, v: Vec3<T>) -> Vec3<T> {
+        match self {
+            Self::None => v,
+            Self::XToZ => Vec3::new(v.y, v.z, v.x),
+            Self::YToZ => Vec3::new(v.z, v.x, v.y),
+        }
+    }
+}
+
+/// The edge function `p × q` in the plane across the ray, with the right sign: the difference of two
+/// rounded products has it unless it is 0, because rounding is monotonic.
+#[inline(always)]
+fn edge<T: Scalar>(p: Vec3<T>, q: Vec3<T>) -> T {
+    let difference = p.x * q.y - p.y * q.x;
+    if difference == T::ZERO {
+        exact_edge(p, q)
+    } else {
+        difference
+    }
+}
+
+/// `p.x·q.y − p.y·q.x` where the rounded products are equal: what rounding took from them remains.
+#[cold]
+#[inline(never)]
+fn exact_edge<T: Scalar>(p: Vec3<T>, q: Vec3<T>) -> T {
+    product_error(p.x, q.y) - product_error(p.y, q.x)
+}
+
+/// `a·b − round(a·b)`, exactly, barring underflow. Dekker, "A floating-point technique for extending
+/// the available precision", Numerische Mathematik 18, 1971.
+fn product_error<T: Scalar>(a: T, b: T) -> T {
+    let product = a * b;
+    let split = |x: T| {
+        let scaled = T::SPLITTER * x;
+        let high = scaled - (scaled - x);
+        (high, x - high)
+    };
+    let (a_high, a_low) = split(a);
+    let (b_high, b_low) = split(b);
+    ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
+}
+
+/// `64u`, the slack of [`Triangle::may_meet`].
+#[inline(always)]
+fn ball_slack<T: Scalar>() -> T {
+    T::EPSILON * T::from_i32(64)
+}
+
+/// A small ball that holds three points: around the middle of the longest edge or around the
+/// centroid, whichever is smaller. Its square radius is rounded up as [`Triangle::may_meet`] needs.
+fn bounding_ball<T: Scalar>(vertices: [Vec3<T>; 3]) -> (Vec3<T>, T) {
+    let [v1, v2, v3] = vertices;
+    let squared = |v: Vec3<T>| v.dot(v);
+    // Halve before adding: the sum of two large coordinates may overflow.
+    let middle = |a: Vec3<T>, b: Vec3<T>| a * T::HALF + b * T::HALF;
+    let third = T::ONE / (T::ONE + T::TWO);
+    let candidates = [
+        middle(v1, v2),
+        middle(v2, v3),
+        middle(v3, v1),
+        v1 * third + v2 * third + v3 * third,
+    ];
+    let mut best = (v1, T::MAX);
+    for center in candidates {
+        let radius_squared = squared(v1 - center)
+            .max(squared(v2 - center))
+            .max(squared(v3 - center));
+        let rounded_up = radius_squared + radius_squared * ball_slack();
+        if rounded_up < best.1 {
+            best = (center, rounded_up);
+        }
+    }
+    best
+}

@@ -1,0 +1,555 @@
+//! The tracer: from a ray to a linear colour.
+
+mod observer;
+mod shade;
+mod stack;
+
+pub use observer::{Observer, RayCount, RayKind, TestKind, WorkCount};
+
+use core::fmt;
+
+use crate::background::Background;
+use crate::camera::Resolution;
+use crate::color::Color;
+use crate::material::{Interface, Material};
+use crate::ray::Ray;
+use crate::scalar::Scalar;
+use crate::scene::{Needs, Object, Scene};
+use crate::shape::{Barycentric, Surface};
+use crate::vec3::Vec3;
+use stack::{Branch, Frame, Stack};
+
+/// How many secondary rays may follow one another unless the tracer is told otherwise.
+pub const DEFAULT_MAX_DEPTH: usize = 5;
+
+/// Whether a stage is compiled.
+#[inline(always)]
+const fn stage(needs: u32, stage: Needs) -> bool {
+    Needs::from_bits(needs).contains(stage)
+}
+
+/// Traces rays through a scene.
+///
+/// `NEEDS` are the stages that are compiled, `STACK` is the number of frames that stand for the
+/// recursion. Neither is written by hand: [`Tracer::new`] compiles all stages for
+/// [`DEFAULT_MAX_DEPTH`], [`tracer_for!`](crate::tracer_for) those that a `static` scene needs, and
+/// methods change the rest.
+///
+/// ```
+/// use scanray::{ScenePools, Tracer};
+///
+/// let mut pools: ScenePools = ScenePools::new();
+/// # #[cfg(feature = "parser")]
+/// pools.parse(include_bytes!("../../scenes/default.txt"))?;
+/// let tracer = Tracer::new(pools.as_scene());
+/// let deeper = tracer.with_stack::<16>().with_max_depth(16)?;
+/// assert_eq!(deeper.max_depth(), 16);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Tracer<
+    'a,
+    T = f32,
+    const NEEDS: u32 = { Needs::ALL.bits() },
+    const STACK: usize = DEFAULT_MAX_DEPTH,
+> {
+    scene: Scene<'a, T>,
+    resolution: Resolution,
+    max_depth: usize,
+}
+
+/// `max_depth` is larger than the stack the tracer was compiled for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DepthError {
+    /// What was asked for.
+    pub max_depth: usize,
+    /// What there are frames for.
+    pub stack: usize,
+}
+
+impl fmt::Display for DepthError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "a maximum depth of {} needs a larger stack than the {} frames compiled in: use with_stack",
+            self.max_depth, self.stack
+        )
+    }
+}
+
+impl core::error::Error for DepthError {}
+
+/// A scene needs stages that the tracer was compiled without.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MissingStages(pub Needs);
+
+impl fmt::Display for MissingStages {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "the scene needs stages that are not compiled in: {}",
+            self.0
+        )
+    }
+}
+
+impl core::error::Error for MissingStages {}
+
+/// A meeting of a ray with a surface, ready for shading.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hit<'a, T> {
+    /// What is hit.
+    surface: Surface,
+    material: &'a Material<T>,
+    /// Unit normal on the side the ray comes from.
+    normal: Vec3<T>,
+    /// `−normal·direction`, at least 0.
+    cosine: T,
+    /// The geometric normal faces the ray.
+    entering: bool,
+    /// Where rays start that stay on the side the ray comes from.
+    outside: Vec3<T>,
+    /// Where rays start that pass the surface.
+    inside: Vec3<T>,
+}
+
+/// What the pixels of a row have in common: a caller that draws row by row computes it once.
+#[derive(Clone, Copy, Debug)]
+pub struct Scanline<T = f32> {
+    row_height: T,
+}
+
+/// The closest object so far.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest<'a, T = f32> {
+    /// Distance along the ray, greater than 0.
+    pub t: T,
+    /// What is there.
+    pub object: Object<'a, T>,
+    /// Where on it, if it is a triangle.
+    place: Barycentric<T>,
+}
+
+impl<'a, T: Scalar> Tracer<'a, T> {
+    /// A tracer with all stages, [`DEFAULT_MAX_DEPTH`] and the scene's own resolution.
+    pub const fn new(scene: Scene<'a, T>) -> Self {
+        Self::with_stages(scene)
+    }
+}
+
+impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, STACK> {
+    /// Stages and stack as the type says, unchecked: stages the scene needs beyond `NEEDS` are simply
+    /// not drawn.
+    #[doc(hidden)]
+    pub const fn with_stages(scene: Scene<'a, T>) -> Self {
+        Self {
+            scene,
+            resolution: scene.resolution,
+            max_depth: if STACK < DEFAULT_MAX_DEPTH {
+                STACK
+            } else {
+                DEFAULT_MAX_DEPTH
+            },
+        }
+    }
+
+    /// The same tracer with `FRAMES` frames; the maximum depth shrinks with them if it must.
+    pub const fn with_stack<const FRAMES: usize>(self) -> Tracer<'a, T, NEEDS, FRAMES> {
+        Tracer {
+            scene: self.scene,
+            resolution: self.resolution,
+            max_depth: if self.max_depth < FRAMES {
+                self.max_depth
+            } else {
+                FRAMES
+            },
+        }
+    }
+
+    /// The same tracer with another maximum depth: 0 casts primary rays alone.
+    ///
+    /// # Errors
+    ///
+    /// [`DepthError`] when the stack has fewer frames.
+    pub const fn with_max_depth(mut self, max_depth: usize) -> Result<Self, DepthError> {
+        if max_depth > STACK {
+            return Err(DepthError {
+                max_depth,
+                stack: STACK,
+            });
+        }
+        self.max_depth = max_depth;
+        Ok(self)
+    }
+
+    /// The same tracer with another size of the picture; what is seen keeps its height.
+    pub const fn with_resolution(mut self, resolution: Resolution) -> Self {
+        self.resolution = resolution;
+        self
+    }
+
+    /// The scene.
+    pub const fn scene(&self) -> &Scene<'a, T> {
+        &self.scene
+    }
+
+    /// Size of the picture.
+    #[inline(always)]
+    pub const fn resolution(&self) -> Resolution {
+        self.resolution
+    }
+
+    /// How many secondary rays may follow one another.
+    pub const fn max_depth(&self) -> usize {
+        self.max_depth
+    }
+
+    /// The stages that are compiled.
+    pub const fn stages(&self) -> Needs {
+        Needs::from_bits(NEEDS)
+    }
+
+    /// No pixel casts more rays than this: a full binary tree of secondary rays, and from each hit one
+    /// shadow ray a light.
+    pub fn max_rays_per_pixel(&self) -> u64 {
+        let hits = (2_u64 << self.max_depth.min(40)) - 1;
+        hits.saturating_mul(1 + self.scene.lights.len() as u64)
+    }
+
+    /// The object a ray meets first; of several at exactly the same distance the first in the file.
+    pub fn nearest(&self, ray: &Ray<T>) -> Option<Nearest<'a, T>> {
+        self.nearest_observed(ray, &mut ())
+    }
+
+    #[inline(always)]
+    fn nearest_observed(
+        &self,
+        ray: &Ray<T>,
+        observer: &mut impl Observer<T>,
+    ) -> Option<Nearest<'a, T>> {
+        let mut t_max = T::MAX;
+        let mut nearest: Option<Nearest<'a, T>> = None;
+        if stage(NEEDS, Needs::SPHERES) {
+            for sphere in self.scene.spheres {
+                observer.test(TestKind::Sphere);
+                if let Some(t) = sphere.intersect(ray, t_max) {
+                    closer(&mut nearest, &mut t_max, t, Object::Sphere(sphere));
+                }
+            }
+        }
+        if stage(NEEDS, Needs::PLANES) {
+            for plane in self.scene.planes {
+                observer.test(TestKind::Plane);
+                if let Some(t) = plane.intersect(ray, t_max) {
+                    closer(&mut nearest, &mut t_max, t, Object::Plane(plane));
+                }
+            }
+        }
+        if stage(NEEDS, Needs::TRIANGLES) {
+            for triangle in self.scene.triangles {
+                observer.test(TestKind::Triangle);
+                if let Some((t, place)) = triangle.intersect(ray, t_max)
+                    && closer(&mut nearest, &mut t_max, t, Object::Triangle(triangle))
+                    && let Some(nearest) = &mut nearest
+                {
+                    nearest.place = place;
+                }
+            }
+        }
+        nearest
+    }
+
+    /// Whether an object that casts shadows lies on the ray within `0 < t < t_max`.
+    pub fn occluded(&self, ray: &Ray<T>, t_max: T) -> bool {
+        self.occluded_observed(ray, t_max, &mut ())
+    }
+
+    #[inline(always)]
+    fn occluded_observed(&self, ray: &Ray<T>, t_max: T, observer: &mut impl Observer<T>) -> bool {
+        let casts_shadow = |surface: Surface| match self.material(surface) {
+            Some(material) => material.casts_shadow(),
+            None => true,
+        };
+        if stage(NEEDS, Needs::SPHERES) {
+            for sphere in self.scene.spheres {
+                observer.test(TestKind::Sphere);
+                if sphere.occludes(ray, t_max) && casts_shadow(sphere.surface()) {
+                    return true;
+                }
+            }
+        }
+        if stage(NEEDS, Needs::PLANES) {
+            for plane in self.scene.planes {
+                observer.test(TestKind::Plane);
+                if plane.occludes(ray, t_max) && casts_shadow(plane.surface()) {
+                    return true;
+                }
+            }
+        }
+        if stage(NEEDS, Needs::TRIANGLES) {
+            for triangle in self.scene.triangles {
+                observer.test(TestKind::Triangle);
+                if triangle.occludes(ray, t_max) && casts_shadow(triangle.surface()) {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    #[inline(always)]
+    fn material(&self, surface: Surface) -> Option<&'a Material<T>> {
+        self.scene.materials.get(surface.material as usize)
+    }
+
+    /// The linear colour that a ray from outside the scene sees.
+    pub fn radiance(&self, ray: Ray<T>) -> Color<T> {
+        self.radiance_observed(ray, &mut ())
+    }
+
+    /// [`Tracer::radiance`], watched.
+    ///
+    /// Depth first over the tree of reflected and refracted rays (Whitted 1980), so that a hit's colour
+    /// is clamped as soon as its secondary rays are known, as the recursive form would. The stack holds
+    /// one frame a level, and there is no recursion.
+    #[inline(always)]
+    pub fn radiance_observed(&self, ray: Ray<T>, observer: &mut impl Observer<T>) -> Color<T> {
+        let mut stack = Stack::<T, STACK>::new();
+        let mut ray = ray;
+        let mut kind = RayKind::Primary;
+        loop {
+            observer.ray(kind, stack.len(), &ray);
+            // The colour of the ray under way, if no secondary ray is needed for it.
+            let mut color = match self.hit(&ray, observer) {
+                None => self.background(ray.direction),
+                Some(hit) => {
+                    let local = self.local_color(&ray, &hit, stack.len(), observer);
+                    match self.branches(&ray, &hit, stack.len()) {
+                        (Some(first), next) => {
+                            let frame = Frame {
+                                color: local,
+                                weight: first.weight,
+                                next,
+                            };
+                            // There is room: no branches come from `max_depth ≤ STACK` frames.
+                            if stack.push(frame).is_ok() {
+                                (ray, kind) = (first.ray, first.kind);
+                                continue;
+                            }
+                            local.clamp()
+                        }
+                        (None, _) => local.clamp(),
+                    }
+                }
+            };
+            // Hand the colour up, to the first frame that has a ray left to cast.
+            loop {
+                let Some(frame) = stack.last_mut() else {
+                    return color;
+                };
+                frame.color = frame.color + color * frame.weight;
+                if let Some(branch) = frame.next.take() {
+                    frame.weight = branch.weight;
+                    (ray, kind) = (branch.ray, branch.kind);
+                    break;
+                }
+                color = frame.color.clamp();
+                stack.pop();
+            }
+        }
+    }
+
+    /// The nearest hit, projected back onto its surface and turned to face the ray.
+    #[inline(always)]
+    fn hit(&self, ray: &Ray<T>, observer: &mut impl Observer<T>) -> Option<Hit<'a, T>> {
+        let nearest = self.nearest_observed(ray, observer)?;
+        let point = match nearest.object {
+            Object::Sphere(sphere) => sphere.surface_point(ray, nearest.t),
+            Object::Plane(plane) => plane.surface_point(ray, nearest.t),
+            Object::Triangle(triangle) => triangle.surface_point(nearest.place),
+        };
+        let surface = nearest.object.surface();
+        let slope = point.normal.dot(ray.direction);
+        let entering = slope <= T::ZERO;
+        let normal = if entering {
+            point.normal
+        } else {
+            -point.normal
+        };
+        let step = normal * point.offset;
+        Some(Hit {
+            surface,
+            material: self.material(surface)?,
+            normal,
+            cosine: slope.abs(),
+            entering,
+            outside: point.point + step,
+            inside: point.point - step,
+        })
+    }
+
+    /// The secondary rays of a hit, in the order they are cast; the first is there if any is.
+    #[inline(always)]
+    fn branches(
+        &self,
+        ray: &Ray<T>,
+        hit: &Hit<'a, T>,
+        depth: usize,
+    ) -> (Option<Branch<T>>, Option<Branch<T>>) {
+        if depth >= self.max_depth {
+            return (None, None);
+        }
+        let description = hit.material.description();
+        let mut mirror = None;
+        if stage(NEEDS, Needs::REFLECTION) && description.reflection > T::ZERO {
+            mirror = Some(Branch {
+                kind: RayKind::Reflected,
+                ray: Ray {
+                    origin: hit.outside,
+                    direction: ray.direction.reflect(hit.normal),
+                    leaves: hit.surface.number,
+                },
+                weight: description.reflection,
+            });
+        }
+        let mut refracted = None;
+        if stage(NEEDS, Needs::REFRACTION) && description.refraction > T::ZERO {
+            refracted = self.refract(ray, hit).map(|direction| Branch {
+                kind: RayKind::Refracted,
+                ray: Ray {
+                    origin: hit.inside,
+                    direction,
+                    leaves: hit.surface.number,
+                },
+                weight: description.refraction,
+            });
+        }
+        match mirror {
+            Some(_) => (mirror, refracted),
+            None => (refracted, None),
+        }
+    }
+
+    /// Direction beyond the surface; `None` at total internal reflection.
+    #[inline(always)]
+    fn refract(&self, ray: &Ray<T>, hit: &Hit<'a, T>) -> Option<Vec3<T>> {
+        // Index 1 passes straight through, to the bit.
+        if !stage(NEEDS, Needs::BENDING) || hit.material.description().index_of_refraction == T::ONE
+        {
+            return Some(ray.direction);
+        }
+        let Interface { eta, bend } = if hit.entering {
+            hit.material.entering()
+        } else {
+            hit.material.leaving()
+        };
+        ray.direction.refract(hit.normal, eta, bend)
+    }
+
+    #[inline(always)]
+    fn background(&self, direction: Vec3<T>) -> Color<T> {
+        let background = &self.scene.background;
+        if stage(NEEDS, Needs::SKY) && (!stage(NEEDS, Needs::PLAIN_BACKGROUND) || background.sky) {
+            Background::sky(direction)
+        } else {
+            background.color.clamp()
+        }
+    }
+
+    /// What the pixels of a row have in common.
+    #[inline(always)]
+    pub fn scanline(&self, y: u16) -> Scanline<T> {
+        Scanline {
+            row_height: self.scene.camera.row_height(self.resolution, y),
+        }
+    }
+
+    /// The primary ray of a pixel.
+    #[inline(always)]
+    pub fn primary_ray(&self, scanline: &Scanline<T>, x: u16) -> Ray<T> {
+        self.scene
+            .camera
+            .ray(self.resolution, scanline.row_height, x)
+    }
+
+    /// The linear colour of a pixel, each channel in 0…1: a pure function of scene, settings and
+    /// coordinates.
+    pub fn pixel(&self, x: u16, y: u16) -> Color<T> {
+        self.radiance(self.primary_ray(&self.scanline(y), x))
+    }
+}
+
+/// Keeps the closer of two hits, and of two at the same distance the first in the file.
+#[inline(always)]
+fn closer<'a, T: Scalar>(
+    nearest: &mut Option<Nearest<'a, T>>,
+    t_max: &mut T,
+    t: T,
+    object: Object<'a, T>,
+) -> bool {
+    if let Some(other) = nearest
+        && t == other.t
+        && other.object.surface().number < object.surface().number
+    {
+        return false;
+    }
+    *t_max = t;
+    *nearest = Some(Nearest {
+        t,
+        object,
+        place: Barycentric::default(),
+    });
+    true
+}
+
+macro_rules! specialize {
+    ($scalar:ty) => {
+        impl<'a, const NEEDS: u32, const STACK: usize> Tracer<'a, $scalar, NEEDS, STACK> {
+            /// The same tracer with only the stages of `STAGES`, for a scene that is known on the device
+            /// but whose needs are known before.
+            ///
+            /// # Errors
+            ///
+            /// [`MissingStages`] when the scene needs more.
+            pub const fn specialize<const STAGES: u32>(
+                self,
+            ) -> Result<Tracer<'a, $scalar, STAGES, STACK>, MissingStages> {
+                let missing = self.scene.needs().without(Needs::from_bits(STAGES));
+                if !missing.is_empty() {
+                    return Err(MissingStages(missing));
+                }
+                Ok(Tracer {
+                    scene: self.scene,
+                    resolution: self.resolution,
+                    max_depth: self.max_depth,
+                })
+            }
+        }
+    };
+}
+
+specialize!(f32);
+specialize!(f64);
+
+/// A tracer for a `static` scene with only the stages the scene needs.
+///
+/// `tracer_for!(SCENE)` compiles what the scene needs and frames for [`DEFAULT_MAX_DEPTH`];
+/// `tracer_for!(SCENE, stack = 8)` frames for a depth of 8; `tracer_for!(SCENE, stages = S)` exactly the
+/// stages `S`, and does not compile when the scene needs one more: the error names it.
+#[macro_export]
+macro_rules! tracer_for {
+    ($scene:path) => {
+        $crate::tracer_for!($scene, stack = $crate::DEFAULT_MAX_DEPTH)
+    };
+    ($scene:path, stack = $stack:expr) => {
+        $crate::tracer_for!($scene, stages = $scene.needs(), stack = $stack)
+    };
+    ($scene:path, stages = $stages:expr) => {
+        $crate::tracer_for!($scene, stages = $stages, stack = $crate::DEFAULT_MAX_DEPTH)
+    };
+    ($scene:path, stages = $stages:expr, stack = $stack:expr) => {{
+        const STAGES: $crate::Needs = $stages;
+        const { $scene.needs().require(STAGES) };
+        $crate::Tracer::<'static, _, { STAGES.bits() }, { $stack }>::with_stages($scene)
+    }};
+}

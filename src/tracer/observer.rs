@@ -1,0 +1,116 @@
+//! A view into the tracer's work: counters, budgets, debugging. Without one it costs nothing.
+
+use crate::ray::Ray;
+
+/// Why a ray is cast.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RayKind {
+    /// From the camera.
+    Primary,
+    /// From a mirroring surface.
+    Reflected,
+    /// Through a transparent surface.
+    Refracted,
+    /// Towards a light.
+    Shadow,
+}
+
+/// A kind of intersection test.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TestKind {
+    /// Ray against sphere.
+    Sphere,
+    /// Ray against plane.
+    Plane,
+    /// Ray against triangle, bounding ball included.
+    Triangle,
+}
+
+/// Is told what the tracer does. Every method does nothing by default; `()` observes nothing.
+pub trait Observer<T> {
+    /// A ray is about to be cast. `depth` is 0 for primary rays and that of the hit for shadow rays.
+    #[inline(always)]
+    fn ray(&mut self, kind: RayKind, depth: usize, ray: &Ray<T>) {
+        let _ = (kind, depth, ray);
+    }
+
+    /// A ray is about to be tested against an object.
+    #[inline(always)]
+    fn test(&mut self, kind: TestKind) {
+        let _ = kind;
+    }
+}
+
+impl<T> Observer<T> for () {}
+
+/// Counts rays of all kinds: what a budget is charged with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RayCount(pub u32);
+
+impl<T> Observer<T> for RayCount {
+    #[inline(always)]
+    fn ray(&mut self, _: RayKind, _: usize, _: &Ray<T>) {
+        self.0 = self.0.saturating_add(1);
+    }
+}
+
+/// Counts rays and intersection tests by kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct WorkCount {
+    /// Rays from the camera.
+    pub primary_rays: u64,
+    /// Mirror rays.
+    pub reflected_rays: u64,
+    /// Refracted rays.
+    pub refracted_rays: u64,
+    /// Rays towards lights.
+    pub shadow_rays: u64,
+    /// Tests against spheres.
+    pub sphere_tests: u64,
+    /// Tests against planes.
+    pub plane_tests: u64,
+    /// Tests against triangles.
+    pub triangle_tests: u64,
+}
+
+impl WorkCount {
+    /// Rays of all kinds.
+    pub fn rays(&self) -> u64 {
+        self.primary_rays + self.reflected_rays + self.refracted_rays + self.shadow_rays
+    }
+
+    /// Tests of all kinds.
+    pub fn tests(&self) -> u64 {
+        self.sphere_tests + self.plane_tests + self.triangle_tests
+    }
+
+    /// Adds the counts of another part of the picture.
+    pub fn add(&mut self, other: &Self) {
+        self.primary_rays += other.primary_rays;
+        self.reflected_rays += other.reflected_rays;
+        self.refracted_rays += other.refracted_rays;
+        self.shadow_rays += other.shadow_rays;
+        self.sphere_tests += other.sphere_tests;
+        self.plane_tests += other.plane_tests;
+        self.triangle_tests += other.triangle_tests;
+    }
+}
+
+impl<T> Observer<T> for WorkCount {
+    fn ray(&mut self, kind: RayKind, _: usize, _: &Ray<T>) {
+        *match kind {
+            RayKind::Primary => &mut self.primary_rays,
+            RayKind::Reflected => &mut self.reflected_rays,
+            RayKind::Refracted => &mut self.refracted_rays,
+            RayKind::Shadow => &mut self.shadow_rays,
+        } += 1;
+    }
+
+    fn test(&mut self, kind: TestKind) {
+        *match kind {
+            TestKind::Sphere => &mut self.sphere_tests,
+            TestKind::Plane => &mut self.plane_tests,
+            TestKind::Triangle => &mut self.triangle_tests,
+        } += 1;
+    }
+}

@@ -1,0 +1,112 @@
+//! The colour of a hit by itself: ambient, diffuse and specular light with shadows.
+
+use super::{Hit, Observer, RayKind, Tracer, stage};
+use crate::color::Color;
+use crate::material::Material;
+use crate::ray::Ray;
+use crate::scalar::Scalar;
+use crate::scene::Needs;
+
+impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, STACK> {
+    /// Ambient light, and of every light that reaches the hit the diffuse share and the highlight
+    /// (Phong 1975). Not clamped.
+    #[inline(always)]
+    pub(super) fn local_color(
+        &self,
+        ray: &Ray<T>,
+        hit: &Hit<'a, T>,
+        depth: usize,
+        observer: &mut impl Observer<T>,
+    ) -> Color<T> {
+        let material = hit.material.description();
+        let mut color = self.scene.ambient_color(material);
+        if !stage(NEEDS, Needs::LIGHT) {
+            return color;
+        }
+        for light in self.scene.lights {
+            let to_light = light.position - hit.outside;
+            // The sign of N·L, before its length is known: a light behind the surface costs no root.
+            let toward = hit.normal.dot(to_light);
+            let distance_squared = to_light.dot(to_light);
+            // The distance is 0 only in a light that lies in the hit itself, and underflows only next
+            // to it.
+            if !(toward > T::ZERO && distance_squared > T::ZERO) {
+                continue;
+            }
+            let distance = distance_squared.sqrt();
+            let inverse = T::ONE / distance;
+            let direction = to_light * inverse;
+            if stage(NEEDS, Needs::SHADOWS) {
+                let shadow = Ray {
+                    origin: hit.outside,
+                    direction,
+                    leaves: hit.surface.number,
+                };
+                observer.ray(RayKind::Shadow, depth, &shadow);
+                if self.occluded_observed(&shadow, distance, observer) {
+                    continue;
+                }
+            }
+            let cosine = toward * inverse;
+            // Light first, then material: a factor ≤ 1 keeps the product finite, so that 0·∞ cannot
+            // arise from bright lights on bright materials.
+            color = color + light.diffuse * cosine * material.diffuse;
+            if stage(NEEDS, Needs::SPECULAR) && !material.specular.is_black() {
+                // R·V with R = 2(N·L)N − L and V = −d.
+                let alignment = T::TWO * cosine * hit.cosine + direction.dot(ray.direction);
+                if alignment > T::ZERO {
+                    let highlight = self.phong_power(alignment, hit.material);
+                    color = color + light.specular * highlight * material.specular;
+                }
+            }
+        }
+        color
+    }
+
+    /// `alignment^shininess`; rounding may have taken the alignment beyond 1.
+    #[inline(always)]
+    fn phong_power(&self, alignment: T, material: &Material<T>) -> T {
+        let base = if alignment < T::ONE {
+            alignment
+        } else {
+            T::ONE
+        };
+        let whole = material.whole_shininess();
+        if stage(NEEDS, Needs::FRACTIONAL_SHININESS) && whole == Material::<T>::FRACTIONAL {
+            base.powf(material.description().shininess)
+        } else {
+            power_of_whole(base, whole)
+        }
+    }
+}
+
+/// Repeated squaring; `x⁰ = 1`.
+#[inline(always)]
+fn power_of_whole<T: Scalar>(mut base: T, mut exponent: u16) -> T {
+    let mut power = T::ONE;
+    loop {
+        if exponent & 1 != 0 {
+            power = power * base;
+        }
+        exponent >>= 1;
+        if exponent == 0 {
+            return power;
+        }
+        base = base * base;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_powers_are_those_of_the_standard_library() {
+        for exponent in [0_u16, 1, 2, 3, 50, 255, 1024] {
+            for base in [0.0_f64, 0.1, 0.5, 0.99, 0.9999, 1.0] {
+                let exact = base.powi(i32::from(exponent));
+                assert!((power_of_whole(base, exponent) - exact).abs() < 1e-12);
+            }
+        }
+    }
+}

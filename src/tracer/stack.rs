@@ -1,0 +1,30 @@
+//! The bounded stack that stands for the recursion of Whitted's algorithm.
+
+use heapless::Vec;
+
+use super::RayKind;
+use crate::color::Color;
+use crate::ray::Ray;
+
+/// The frames from the primary hit down to the ray under way, whose depth is their number.
+pub(super) type Stack<T, const CAPACITY: usize> = Vec<Frame<T>, CAPACITY>;
+
+/// A hit whose colour waits for a secondary ray.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame<T> {
+    /// What is known of the colour so far, not yet clamped.
+    pub(super) color: Color<T>,
+    /// The coefficient of the ray that is under way.
+    pub(super) weight: T,
+    /// The other ray of the hit, still to be cast.
+    pub(super) next: Option<Branch<T>>,
+}
+
+/// A secondary ray, to be cast.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Branch<T> {
+    pub(super) kind: RayKind,
+    pub(super) ray: Ray<T>,
+    /// What its colour is multiplied with.
+    pub(super) weight: T,
+}

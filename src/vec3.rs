@@ -1,0 +1,206 @@
+//! Vectors and points in three dimensions, and the two directions a surface sends a ray in.
+
+use core::ops::{Add, Mul, Neg, Sub};
+
+use crate::scalar::Scalar;
+
+/// A vector or point: `x` to the right, `y` up, `z` into the picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Vec3<T = f32> {
+    /// To the right.
+    pub x: T,
+    /// Up.
+    pub y: T,
+    /// Into the picture.
+    pub z: T,
+}
+
+impl<T> Vec3<T> {
+    /// The vector of three components.
+    pub const fn new(x: T, y: T, z: T) -> Self {
+        Self { x, y, z }
+    }
+}
+
+impl<T: Scalar> Vec3<T> {
+    /// The same component three times.
+    #[inline(always)]
+    pub fn splat(component: T) -> Self {
+        Self::new(component, component, component)
+    }
+
+    /// Scalar product, summed from left to right.
+    #[inline(always)]
+    pub fn dot(self, other: Self) -> T {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    /// Vector product.
+    #[inline]
+    pub fn cross(self, other: Self) -> Self {
+        Self::new(
+            self.y * other.z - self.z * other.y,
+            self.z * other.x - self.x * other.z,
+            self.x * other.y - self.y * other.x,
+        )
+    }
+
+    /// Absolute value of each component.
+    #[inline(always)]
+    pub fn abs(self) -> Self {
+        Self::new(self.x.abs(), self.y.abs(), self.z.abs())
+    }
+
+    /// The largest component.
+    #[inline]
+    pub fn max_component(self) -> T {
+        self.x.max(self.y).max(self.z)
+    }
+
+    /// All three components are finite.
+    #[inline]
+    pub fn is_finite(self) -> bool {
+        self.x.is_finite() && self.y.is_finite() && self.z.is_finite()
+    }
+
+    /// The vector of length 1, for vectors whose square is neither zero nor infinite.
+    #[inline(always)]
+    pub fn normalize(self) -> Self {
+        self * (T::ONE / self.dot(self).sqrt())
+    }
+
+    /// The vector of length 1 and the length it had, whatever the scale; `None` when it has none
+    /// (zero, infinite, NaN). Meant for loading: it divides more than [`Vec3::normalize`].
+    pub fn try_normalize(self) -> Option<(Self, T)> {
+        let largest = self.abs().max_component();
+        if !(largest > T::ZERO && self.is_finite()) {
+            return None;
+        }
+        // The square of the scaled vector lies in 1…3, so that it neither under- nor overflows.
+        let scaled = Self::new(self.x / largest, self.y / largest, self.z / largest);
+        let length = scaled.dot(scaled).sqrt();
+        let unit = Self::new(scaled.x / length, scaled.y / length, scaled.z / length);
+        Some((unit, length * largest))
+    }
+
+    /// One Newton step of `1/√(x·x)` at 1: full precision for a vector that rounding has moved off
+    /// length 1, without a root or a division.
+    #[inline(always)]
+    fn renormalize(self) -> Self {
+        self * (T::THREE_HALVES - T::HALF * self.dot(self))
+    }
+
+    /// The mirror direction of the unit vector `self` at a surface with unit normal `normal`.
+    #[inline(always)]
+    pub fn reflect(self, normal: Self) -> Self {
+        (self - normal * (T::TWO * self.dot(normal))).renormalize()
+    }
+
+    /// The refracted direction of the unit vector `self`, or `None` at total internal reflection.
+    ///
+    /// `normal` is the unit normal on the side the ray comes from, `eta` the ratio of the index of
+    /// refraction on that side to the one beyond, and `bend = 1/eta² − 1`, which a caller computes
+    /// from the index itself because the difference cancels when `eta` is near 1.
+    ///
+    /// Snell's law as `eta (d + (c − √(c² + bend)) n)` with `c = −d·n`: the same as the usual
+    /// `k = 1 − eta²(1 − c²)`, but the sign that decides total reflection has no cancellation.
+    #[inline]
+    pub fn refract(self, normal: Self, eta: T, bend: T) -> Option<Self> {
+        let cosine = -self.dot(normal);
+        let k = cosine * cosine + bend;
+        // NaN counts as total reflection, so that no direction without a length leaves here.
+        if !(k >= T::ZERO) {
+            return None;
+        }
+        let direction = (self + normal * (cosine - k.sqrt())) * eta;
+        let drift = (direction.dot(direction) - T::ONE).abs();
+        if drift < T::EPSILON * T::from_i32(256) {
+            Some(direction.renormalize())
+        } else {
+            // Only an extreme index cancels enough to come here.
+            direction.try_normalize().map(|(unit, _)| unit)
+        }
+    }
+}
+
+impl<T: Scalar> Add for Vec3<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self::new(self.x + other.x, self.y + other.y, self.z + other.z)
+    }
+}
+
+impl<T: Scalar> Sub for Vec3<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self::new(self.x - other.x, self.y - other.y, self.z - other.z)
+    }
+}
+
+impl<T: Scalar> Mul<T> for Vec3<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: T) -> Self {
+        Self::new(self.x * factor, self.y * factor, self.z * factor)
+    }
+}
+
+impl<T: Scalar> Neg for Vec3<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self::new(-self.x, -self.y, -self.z)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reflection_keeps_length_over_many_bounces() {
+        let mut direction = Vec3::new(0.6_f32, -0.48, 0.64);
+        for step in 0..1000_i32 {
+            let (normal, _) = Vec3::new(f32::from_i32(step % 7) - 3.2, 1.0, 0.3)
+                .try_normalize()
+                .unwrap();
+            direction = direction.reflect(normal);
+            assert!((direction.dot(direction).sqrt() - 1.0).abs() <= 2e-7);
+        }
+    }
+
+    #[test]
+    fn try_normalize_knows_no_scale() {
+        for scale in [1e-38_f32, 1e-20, 1.0, 1e20, 1e38] {
+            let (unit, length) = Vec3::new(0.0, scale, 0.0).try_normalize().unwrap();
+            assert_eq!(unit, Vec3::new(0.0, 1.0, 0.0));
+            assert_eq!(length, scale);
+        }
+        assert_eq!(Vec3::new(0.0_f32, 0.0, -0.0).try_normalize(), None);
+        assert_eq!(Vec3::new(f32::NAN, 1.0, 0.0).try_normalize(), None);
+        assert_eq!(Vec3::new(f32::INFINITY, 1.0, 0.0).try_normalize(), None);
+    }
+
+    #[test]
+    fn refraction_bends_by_snell_and_reflects_totally_beyond_the_critical_angle() {
+        let normal = Vec3::new(0.0_f64, 1.0, 0.0);
+        let (sine, cosine) = (0.6, 0.8);
+        let incoming = Vec3::new(sine, -cosine, 0.0);
+        // Into glass: the sine shrinks by the index.
+        let index = 1.5;
+        let inside = incoming
+            .refract(normal, 1.0 / index, (index - 1.0) * (index + 1.0))
+            .unwrap();
+        assert!((inside.x - sine / index).abs() < 1e-15);
+        // Out of glass: beyond asin(1/1.5) nothing leaves.
+        let bend = (1.0 / index) * (1.0 / index) - 1.0;
+        assert_eq!(
+            incoming.refract(normal, index, bend).map(|d| d.x > 0.89),
+            Some(true)
+        );
+        let steep = Vec3::new(0.7, -(1.0_f64 - 0.49).sqrt(), 0.0);
+        assert_eq!(steep.refract(normal, index, bend), None);
+    }
+}
