@@ -29,6 +29,11 @@ impl<T: Scalar> Camera<T> {
         T::from_i32(height - 1 - 2 * i32::from(row)) / T::from_i32(height)
     }
 
+    /// The largest `|x|` of a ray through a pixel, before normalisation: `(W − 1)/H`.
+    pub fn half_width(&self, resolution: Resolution) -> T {
+        T::from_i32(i32::from(resolution.width) - 1) / T::from_i32(i32::from(resolution.height))
+    }
+
     /// The ray through the centre of the pixel in `column` of the row at `row_height`:
     /// `x = (2·column + 1 − W)/H`, exactly opposite for mirrored columns.
     #[inline(always)]

@@ -20,6 +20,7 @@ mod scene;
 pub mod shape;
 mod tracer;
 mod vec3;
+mod visibility;
 
 pub use background::Background;
 pub use camera::{Camera, Resolution};
@@ -28,13 +29,15 @@ pub use light::Light;
 pub use material::{Interface, Material, MaterialDescription};
 #[cfg(feature = "parser")]
 pub use parser::{Excerpt, Expected, Found, FromDecimal, ParseError, Range, Report};
-pub use ray::{ObjectNumber, Ray, origin_offset};
+pub use ray::{ObjectNumber, Ray, Side, origin_offset};
 pub use render::{
     Budget, DisplayColor, Dithered, Exact, Frame, Picture, PixelSource, Progress, Quantizer,
     ThroughRgb888,
 };
 pub use scalar::Scalar;
-pub use scene::{Needs, Object, Pool, PoolUse, PoolsMut, Scene, SceneError, ScenePools};
+pub use scene::{
+    Needs, Object, ObjectSet, Pool, PoolUse, PoolsMut, Reach, Scene, SceneError, ScenePools,
+};
 pub use tracer::{
     DEFAULT_MAX_DEPTH, DepthError, MissingStages, Nearest, Observer, RayCount, RayKind, Scanline,
     TestKind, Tracer, WorkCount,

@@ -7,6 +7,40 @@ use crate::vec3::Vec3;
 /// name.
 pub type ObjectNumber = u32;
 
+/// A side of an object, or no object at all: what a ray leaves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Side(u32);
+
+impl Side {
+    /// Not on any object.
+    pub const NOWHERE: Self = Self(u32::MAX);
+
+    /// A side of the object of a number below 2³¹ − 1: the front is where the geometric normal points
+    /// to, the outside of a sphere.
+    #[inline(always)]
+    pub const fn new(object: ObjectNumber, front: bool) -> Self {
+        Self(object << 1 | !front as u32)
+    }
+
+    /// Its index among the sides of all objects: the front of each before its back.
+    #[inline(always)]
+    pub const fn index(self) -> usize {
+        self.0 as usize
+    }
+
+    /// The object; a number that no object has for [`Side::NOWHERE`].
+    #[inline(always)]
+    pub const fn object(self) -> ObjectNumber {
+        self.0 >> 1
+    }
+
+    /// Whether it is the front.
+    #[inline(always)]
+    pub const fn is_front(self) -> bool {
+        self.0 & 1 == 0
+    }
+}
+
 /// A half-line. `direction` must be normalised.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray<T = f32> {
@@ -14,22 +48,19 @@ pub struct Ray<T = f32> {
     pub origin: Vec3<T>,
     /// Where it goes; length 1.
     pub direction: Vec3<T>,
-    /// The object whose surface it leaves. A flat object cannot be met again by a ray that leaves
-    /// it, which no rounding may undo; spheres decide by the offset of the origin.
-    pub leaves: ObjectNumber,
+    /// The surface it leaves. A flat object cannot be met again by a ray that leaves it, which no
+    /// rounding may undo; spheres decide by the offset of the origin.
+    pub leaves: Side,
 }
 
 impl<T: Scalar> Ray<T> {
-    /// [`Ray::leaves`] of a ray that starts in the open, such as the camera's.
-    pub const NOWHERE: ObjectNumber = ObjectNumber::MAX;
-
     /// A ray that starts in the open.
     #[inline(always)]
     pub fn new(origin: Vec3<T>, direction: Vec3<T>) -> Self {
         Self {
             origin,
             direction,
-            leaves: Self::NOWHERE,
+            leaves: Side::NOWHERE,
         }
     }
 

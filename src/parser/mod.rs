@@ -27,7 +27,9 @@ impl<T: Scalar + FromDecimal> PoolsMut<'_, T> {
     pub fn parse(&mut self, text: &[u8]) -> Result<Report, ParseError> {
         self.clear();
         let result = numeric::read(text, self);
-        if result.is_err() {
+        if result.is_ok() {
+            self.prepare();
+        } else {
             self.clear();
         }
         result
@@ -41,7 +43,8 @@ impl<
     const TRIANGLES: usize,
     const MATERIALS: usize,
     const LIGHTS: usize,
-> ScenePools<T, SPHERES, PLANES, TRIANGLES, MATERIALS, LIGHTS>
+    const SIDES: usize,
+> ScenePools<T, SPHERES, PLANES, TRIANGLES, MATERIALS, LIGHTS, SIDES>
 {
     /// Replaces the scene in the pools by that of a text in the numeric dialect.
     ///

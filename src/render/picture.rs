@@ -49,7 +49,7 @@ impl<T: Scalar, const NEEDS: u32, const STACK: usize> PixelSource for Tracer<'_,
     #[inline(always)]
     fn pixel_on(&self, scanline: &Scanline<T>, x: u16) -> (Color<T>, u32) {
         let mut rays = RayCount::default();
-        let color = self.radiance_observed(self.primary_ray(scanline, x), &mut rays);
+        let color = self.pixel_observed(scanline, x, &mut rays);
         (color, rays.0)
     }
 }

@@ -2,9 +2,11 @@
 
 mod needs;
 mod pools;
+mod reach;
 
 pub use needs::Needs;
 pub use pools::{Pool, PoolUse, PoolsMut, SceneError, ScenePools};
+pub use reach::{ObjectSet, Reach};
 
 use crate::background::Background;
 use crate::camera::{Camera, Resolution};
@@ -38,6 +40,9 @@ pub struct Scene<'a, T = f32> {
     pub triangles: &'a [Triangle<T>],
     /// Materials, which the objects share.
     pub materials: &'a [Material<T>],
+    /// What rays can meet that leave each side of each object, by [`Side::index`](crate::Side::index);
+    /// where there is no entry, anything.
+    pub sides: &'a [Reach],
 }
 
 /// An object of a scene, of any shape.

@@ -4,7 +4,7 @@ use core::fmt;
 
 use heapless::{Vec, VecView};
 
-use super::Scene;
+use super::{Object, Reach, Scene};
 use crate::background::Background;
 use crate::camera::{Camera, Resolution};
 use crate::light::Light;
@@ -19,7 +19,8 @@ const MATERIAL_LOOK_BACK: usize = 16;
 
 /// Pools for one scene, in RAM: a `static`, a local or a field.
 ///
-/// A full pool is an error, never a silent loss. The default capacities hold every scene of the
+/// A full pool is an error, never a silent loss; only `SIDES`, the number of objects whose mutual
+/// visibility is kept ([`ScenePools::prepare`]), is for speed alone. The default capacities hold every scene of the
 /// repository's `scenes/` folder.
 #[derive(Clone, Debug)]
 pub struct ScenePools<
@@ -29,6 +30,7 @@ pub struct ScenePools<
     const TRIANGLES: usize = 24,
     const MATERIALS: usize = 16,
     const LIGHTS: usize = 1,
+    const SIDES: usize = 48,
 > {
     settings: Settings<T>,
     spheres: Vec<Sphere<T>, SPHERES>,
@@ -36,6 +38,7 @@ pub struct ScenePools<
     triangles: Vec<Triangle<T>, TRIANGLES>,
     materials: Vec<Material<T>, MATERIALS>,
     lights: Vec<Light<T>, LIGHTS>,
+    sides: Vec<[Reach; 2], SIDES>,
 }
 
 /// What a scene has one of.
@@ -155,7 +158,8 @@ impl<
     const TRIANGLES: usize,
     const MATERIALS: usize,
     const LIGHTS: usize,
-> ScenePools<T, SPHERES, PLANES, TRIANGLES, MATERIALS, LIGHTS>
+    const SIDES: usize,
+> ScenePools<T, SPHERES, PLANES, TRIANGLES, MATERIALS, LIGHTS, SIDES>
 {
     /// Empty pools: a scene without objects and lights, of 0×0 pixels.
     pub const fn new() -> Self {
@@ -166,6 +170,7 @@ impl<
             triangles: Vec::new(),
             materials: Vec::new(),
             lights: Vec::new(),
+            sides: Vec::new(),
         }
     }
 
@@ -181,6 +186,7 @@ impl<
             planes: &self.planes,
             triangles: &self.triangles,
             materials: &self.materials,
+            sides: self.sides.as_flattened(),
         }
     }
 
@@ -193,6 +199,7 @@ impl<
             triangles: &mut self.triangles,
             materials: &mut self.materials,
             lights: &mut self.lights,
+            sides: &mut self.sides,
         }
     }
 
@@ -223,7 +230,8 @@ impl<
     const TRIANGLES: usize,
     const MATERIALS: usize,
     const LIGHTS: usize,
-> Default for ScenePools<T, SPHERES, PLANES, TRIANGLES, MATERIALS, LIGHTS>
+    const SIDES: usize,
+> Default for ScenePools<T, SPHERES, PLANES, TRIANGLES, MATERIALS, LIGHTS, SIDES>
 {
     fn default() -> Self {
         Self::new()
@@ -240,6 +248,7 @@ pub struct PoolsMut<'p, T> {
     triangles: &'p mut VecView<Triangle<T>>,
     materials: &'p mut VecView<Material<T>>,
     lights: &'p mut VecView<Light<T>>,
+    sides: &'p mut VecView<[Reach; 2]>,
 }
 
 impl<T: Scalar> PoolsMut<'_, T> {
@@ -251,6 +260,7 @@ impl<T: Scalar> PoolsMut<'_, T> {
         self.triangles.clear();
         self.materials.clear();
         self.lights.clear();
+        self.sides.clear();
     }
 
     /// Sets where the scene is seen from.
@@ -299,6 +309,7 @@ impl<T: Scalar> PoolsMut<'_, T> {
     ///
     /// [`SceneError::PoolFull`].
     pub fn add_light(&mut self, light: Light<T>) -> Result<(), SceneError> {
+        self.sides.clear();
         push(self.lights, light, Pool::Lights)
     }
 
@@ -314,6 +325,7 @@ impl<T: Scalar> PoolsMut<'_, T> {
         material: MaterialDescription<T>,
     ) -> Result<(), SceneError> {
         self.has_room(Pool::Spheres)?;
+        self.sides.clear();
         let mut sphere = Sphere::new(center, radius, self.next_surface())?;
         sphere.set_material(self.share(material)?);
         push(self.spheres, sphere, Pool::Spheres)
@@ -331,6 +343,7 @@ impl<T: Scalar> PoolsMut<'_, T> {
         material: MaterialDescription<T>,
     ) -> Result<(), SceneError> {
         self.has_room(Pool::Planes)?;
+        self.sides.clear();
         let mut plane = Plane::new(normal, distance, self.next_surface())?;
         plane.set_material(self.share(material)?);
         push(self.planes, plane, Pool::Planes)
@@ -347,9 +360,34 @@ impl<T: Scalar> PoolsMut<'_, T> {
         material: MaterialDescription<T>,
     ) -> Result<(), SceneError> {
         self.has_room(Pool::Triangles)?;
+        self.sides.clear();
         let mut triangle = Triangle::new(vertices, self.next_surface())?;
         triangle.set_material(self.share(material)?);
         push(self.triangles, triangle, Pool::Triangles)
+    }
+
+    /// Fills in the sides of all objects, or of none if there is not enough room for all.
+    pub(crate) fn fill_sides(&mut self, sides: fn(&Scene<'_, T>, Object<'_, T>) -> [Reach; 2]) {
+        self.sides.clear();
+        let scene = Scene {
+            camera: self.settings.camera,
+            resolution: self.settings.resolution,
+            ambient: self.settings.ambient,
+            background: self.settings.background,
+            lights: self.lights,
+            spheres: self.spheres,
+            planes: self.planes,
+            triangles: self.triangles,
+            materials: self.materials,
+            sides: &[],
+        };
+        if scene.object_count() > self.sides.capacity() {
+            return;
+        }
+        for object in scene.objects() {
+            // There is room for all.
+            let _ = self.sides.push(sides(&scene, object));
+        }
     }
 
     /// The surface of the next object, its material still to be found.

@@ -64,7 +64,7 @@ impl<T: Scalar> Plane<T> {
     /// it does not cross it.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray<T>, t_max: T) -> Option<T> {
-        if ray.leaves == self.surface.number {
+        if ray.leaves.object() == self.surface.number {
             return None;
         }
         let t = (self.height - self.normal.dot(ray.origin)) / self.normal.dot(ray.direction);
@@ -128,7 +128,7 @@ mod tests {
         let plane = Plane::new(Vec3::new(0.0_f32, 1.0, 0.0), 1.0, SURFACE).unwrap();
         let mut ray = Ray::new(Vec3::new(0.0, -0.9, 0.0), Vec3::new(0.0, -1.0, 0.0));
         assert!(plane.intersect(&ray, f32::MAX).is_some());
-        ray.leaves = SURFACE.number;
+        ray.leaves = crate::ray::Side::new(SURFACE.number, true);
         assert_eq!(plane.intersect(&ray, f32::MAX), None);
     }
 

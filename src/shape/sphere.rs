@@ -94,14 +94,14 @@ impl<T: Scalar> Sphere<T> {
 
     /// The distances of both crossings of the ray's line, nearer first.
     ///
-    /// The discriminant comes from the squared distance between centre and line, `r² − |f + d·b|²`,
+    /// The discriminant comes from the squared distance between centre and line, `r² − |f − d·b|²`,
     /// not from the difference of two squares `b² − (f·f − r²)`, which at radius/distance 1e-4
     /// misjudges a third of all rays in `f32`. Ray Tracing Gems, ch. 7 (Haines et al.).
     #[inline(always)]
     fn crossings(&self, ray: &Ray<T>) -> Option<(T, T)> {
-        let f = ray.origin - self.center;
-        let b = -f.dot(ray.direction);
-        let l = f + ray.direction * b;
+        let f = self.center - ray.origin;
+        let b = f.dot(ray.direction);
+        let l = f - ray.direction * b;
         let discriminant = self.radius_squared - l.dot(l);
         if discriminant >= T::ZERO {
             let half_chord = discriminant.sqrt();

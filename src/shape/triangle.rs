@@ -130,24 +130,28 @@ impl<T: Scalar> Triangle<T> {
     /// made.
     #[inline(always)]
     fn may_meet(&self, ray: &Ray<T>) -> bool {
-        let f = ray.origin - self.ball_center;
-        let b = -f.dot(ray.direction);
-        let l = f + ray.direction * b;
+        let f = self.ball_center - ray.origin;
+        let b = f.dot(ray.direction);
+        let l = f - ray.direction * b;
         l.dot(l) <= self.ball_radius_squared + ball_slack::<T>() * (b * b)
     }
 
     /// Distance and place of the crossing within `0 < t ≤ t_max`.
-    ///
+    #[inline(always)]
+    pub fn intersect(&self, ray: &Ray<T>, t_max: T) -> Option<(T, Barycentric<T>)> {
+        if ray.leaves.object() == self.surface.number || !self.may_meet(ray) {
+            return None;
+        }
+        self.intersect_exactly(ray, t_max)
+    }
+
     /// Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013: the vertices
     /// are sheared so that the ray is an axis; the signs of the three edge functions then agree between
     /// triangles that share an edge, so that no ray passes between them. Where an edge function rounds
     /// to 0 its sign is computed again, exactly, with two-products (the paper uses double precision,
     /// which a microcontroller would have to emulate).
     #[inline]
-    pub fn intersect(&self, ray: &Ray<T>, t_max: T) -> Option<(T, Barycentric<T>)> {
-        if ray.leaves == self.surface.number || !self.may_meet(ray) {
-            return None;
-        }
+    fn intersect_exactly(&self, ray: &Ray<T>, t_max: T) -> Option<(T, Barycentric<T>)> {
         // Turn the axes so that z is the ray's largest component; the winding does not matter here.
         let turn = Turn::largest_to_z(ray.direction);
         let d = turn.apply(ray.direction);
@@ -181,7 +185,7 @@ impl<T: Scalar> Triangle<T> {
     }
 
     /// Whether the ray crosses the triangle within `0 < t < t_max`.
-    #[inline]
+    #[inline(always)]
     pub fn occludes(&self, ray: &Ray<T>, t_max: T) -> bool {
         matches!(self.intersect(ray, t_max), Some((t, _)) if t < t_max)
     }

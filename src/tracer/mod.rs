@@ -12,11 +12,12 @@ use crate::background::Background;
 use crate::camera::Resolution;
 use crate::color::Color;
 use crate::material::{Interface, Material};
-use crate::ray::Ray;
+use crate::ray::{ObjectNumber, Ray, Side};
 use crate::scalar::Scalar;
-use crate::scene::{Needs, Object, Scene};
-use crate::shape::{Barycentric, Surface};
+use crate::scene::{Needs, Object, ObjectSet, Reach, Scene};
+use crate::shape::{Barycentric, Plane, Sphere, Surface, Triangle};
 use crate::vec3::Vec3;
+use crate::visibility::visible_in_row;
 use stack::{Branch, Frame, Stack};
 
 /// How many secondary rays may follow one another unless the tracer is told otherwise.
@@ -98,8 +99,10 @@ impl core::error::Error for MissingStages {}
 /// A meeting of a ray with a surface, ready for shading.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hit<'a, T> {
-    /// What is hit.
-    surface: Surface,
+    /// The side the ray comes from.
+    facing: Side,
+    /// The side beyond.
+    beyond: Side,
     material: &'a Material<T>,
     /// Unit normal on the side the ray comes from.
     normal: Vec3<T>,
@@ -117,17 +120,63 @@ pub(crate) struct Hit<'a, T> {
 #[derive(Clone, Copy, Debug)]
 pub struct Scanline<T = f32> {
     row_height: T,
+    visible: ObjectSet,
 }
 
-/// The closest object so far.
+impl<T: Scalar> Scanline<T> {
+    /// The objects that primary rays of the row can meet.
+    pub fn visible(&self) -> ObjectSet {
+        self.visible
+    }
+
+    /// `y` of its primary rays before normalisation.
+    pub fn row_height(&self) -> T {
+        self.row_height
+    }
+}
+
+/// The object a ray meets first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest<'a, T = f32> {
     /// Distance along the ray, greater than 0.
     pub t: T,
     /// What is there.
     pub object: Object<'a, T>,
-    /// Where on it, if it is a triangle.
-    place: Barycentric<T>,
+}
+
+/// The closest meeting so far. At most one of the objects is there; three options instead of an enum
+/// become plain branches, which are foreseen better than a jump table.
+#[derive(Clone, Copy)]
+struct Closest<'a, T> {
+    /// Distance along the ray; the largest number if there is no meeting yet.
+    t: T,
+    /// Number of the object.
+    number: ObjectNumber,
+    sphere: Option<&'a Sphere<T>>,
+    plane: Option<&'a Plane<T>>,
+    triangle: Option<(&'a Triangle<T>, Barycentric<T>)>,
+}
+
+impl<T: Scalar> Closest<'_, T> {
+    const NONE: Self = Self {
+        t: T::MAX,
+        number: ObjectNumber::MAX,
+        sphere: None,
+        plane: None,
+        triangle: None,
+    };
+
+    /// Whether a meeting at `t ≤ self.t` with an object comes before the closest so far, and if so,
+    /// makes it the closest: of two at exactly the same distance the first in the file wins.
+    #[inline(always)]
+    fn yields_to(&mut self, t: T, surface: Surface) -> bool {
+        let is_closer = t < self.t || surface.number < self.number;
+        if is_closer {
+            self.t = t;
+            self.number = surface.number;
+        }
+        is_closer
+    }
 }
 
 impl<'a, T: Scalar> Tracer<'a, T> {
@@ -218,60 +267,81 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
 
     /// The object a ray meets first; of several at exactly the same distance the first in the file.
     pub fn nearest(&self, ray: &Ray<T>) -> Option<Nearest<'a, T>> {
-        self.nearest_observed(ray, &mut ())
+        let closest = self.closest(ray, ObjectSet::ALL, &mut ());
+        let object = if let Some(sphere) = closest.sphere {
+            Object::Sphere(sphere)
+        } else if let Some(plane) = closest.plane {
+            Object::Plane(plane)
+        } else {
+            Object::Triangle(closest.triangle?.0)
+        };
+        Some(Nearest {
+            t: closest.t,
+            object,
+        })
     }
 
     #[inline(always)]
-    fn nearest_observed(
+    fn closest(
         &self,
         ray: &Ray<T>,
+        candidates: ObjectSet,
         observer: &mut impl Observer<T>,
-    ) -> Option<Nearest<'a, T>> {
-        let mut t_max = T::MAX;
-        let mut nearest: Option<Nearest<'a, T>> = None;
+    ) -> Closest<'a, T> {
+        let mut closest = Closest::NONE;
         if stage(NEEDS, Needs::SPHERES) {
-            for sphere in self.scene.spheres {
+            for sphere in members(self.scene.spheres, candidates.spheres) {
                 observer.test(TestKind::Sphere);
-                if let Some(t) = sphere.intersect(ray, t_max) {
-                    closer(&mut nearest, &mut t_max, t, Object::Sphere(sphere));
+                if let Some(t) = sphere.intersect(ray, closest.t)
+                    && closest.yields_to(t, sphere.surface())
+                {
+                    closest.sphere = Some(sphere);
                 }
             }
         }
         if stage(NEEDS, Needs::PLANES) {
-            for plane in self.scene.planes {
+            for plane in members(self.scene.planes, candidates.planes) {
                 observer.test(TestKind::Plane);
-                if let Some(t) = plane.intersect(ray, t_max) {
-                    closer(&mut nearest, &mut t_max, t, Object::Plane(plane));
+                if let Some(t) = plane.intersect(ray, closest.t)
+                    && closest.yields_to(t, plane.surface())
+                {
+                    (closest.sphere, closest.plane) = (None, Some(plane));
                 }
             }
         }
         if stage(NEEDS, Needs::TRIANGLES) {
-            for triangle in self.scene.triangles {
+            for triangle in members(self.scene.triangles, candidates.triangles) {
                 observer.test(TestKind::Triangle);
-                if let Some((t, place)) = triangle.intersect(ray, t_max)
-                    && closer(&mut nearest, &mut t_max, t, Object::Triangle(triangle))
-                    && let Some(nearest) = &mut nearest
+                if let Some((t, place)) = triangle.intersect(ray, closest.t)
+                    && closest.yields_to(t, triangle.surface())
                 {
-                    nearest.place = place;
+                    (closest.sphere, closest.plane) = (None, None);
+                    closest.triangle = Some((triangle, place));
                 }
             }
         }
-        nearest
+        closest
     }
 
     /// Whether an object that casts shadows lies on the ray within `0 < t < t_max`.
     pub fn occluded(&self, ray: &Ray<T>, t_max: T) -> bool {
-        self.occluded_observed(ray, t_max, &mut ())
+        self.occluded_observed(ray, t_max, ObjectSet::ALL, &mut ())
     }
 
     #[inline(always)]
-    fn occluded_observed(&self, ray: &Ray<T>, t_max: T, observer: &mut impl Observer<T>) -> bool {
+    fn occluded_observed(
+        &self,
+        ray: &Ray<T>,
+        t_max: T,
+        candidates: ObjectSet,
+        observer: &mut impl Observer<T>,
+    ) -> bool {
         let casts_shadow = |surface: Surface| match self.material(surface) {
             Some(material) => material.casts_shadow(),
             None => true,
         };
         if stage(NEEDS, Needs::SPHERES) {
-            for sphere in self.scene.spheres {
+            for sphere in members(self.scene.spheres, candidates.spheres) {
                 observer.test(TestKind::Sphere);
                 if sphere.occludes(ray, t_max) && casts_shadow(sphere.surface()) {
                     return true;
@@ -279,7 +349,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             }
         }
         if stage(NEEDS, Needs::PLANES) {
-            for plane in self.scene.planes {
+            for plane in members(self.scene.planes, candidates.planes) {
                 observer.test(TestKind::Plane);
                 if plane.occludes(ray, t_max) && casts_shadow(plane.surface()) {
                     return true;
@@ -287,7 +357,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             }
         }
         if stage(NEEDS, Needs::TRIANGLES) {
-            for triangle in self.scene.triangles {
+            for triangle in members(self.scene.triangles, candidates.triangles) {
                 observer.test(TestKind::Triangle);
                 if triangle.occludes(ray, t_max) && casts_shadow(triangle.surface()) {
                     return true;
@@ -297,6 +367,12 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         false
     }
 
+    /// What rays can meet that leave a side of an object.
+    #[inline(always)]
+    fn reach(&self, side: Side) -> &'a Reach {
+        self.scene.sides.get(side.index()).unwrap_or(&Reach::ALL)
+    }
+
     #[inline(always)]
     fn material(&self, surface: Surface) -> Option<&'a Material<T>> {
         self.scene.materials.get(surface.material as usize)
@@ -304,53 +380,80 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
 
     /// The linear colour that a ray from outside the scene sees.
     pub fn radiance(&self, ray: Ray<T>) -> Color<T> {
-        self.radiance_observed(ray, &mut ())
+        self.radiance_observed(ray, ObjectSet::ALL, &mut ())
     }
 
-    /// [`Tracer::radiance`], watched.
+    /// [`Tracer::radiance`] of a ray that meets one of the candidates first if it meets anything, watched.
     ///
     /// Depth first over the tree of reflected and refracted rays (Whitted 1980), so that a hit's colour
     /// is clamped as soon as its secondary rays are known, as the recursive form would. The stack holds
     /// one frame a level, and there is no recursion.
     #[inline(always)]
-    pub fn radiance_observed(&self, ray: Ray<T>, observer: &mut impl Observer<T>) -> Color<T> {
+    pub fn radiance_observed(
+        &self,
+        ray: Ray<T>,
+        candidates: ObjectSet,
+        observer: &mut impl Observer<T>,
+    ) -> Color<T> {
         let mut stack = Stack::<T, STACK>::new();
         let mut ray = ray;
+        let mut candidates = candidates;
         let mut kind = RayKind::Primary;
         loop {
             observer.ray(kind, stack.len(), &ray);
-            // The colour of the ray under way, if no secondary ray is needed for it.
-            let mut color = match self.hit(&ray, observer) {
-                None => self.background(ray.direction),
+            // The colour of the ray under way, once no secondary ray is left to cast for it.
+            let mut color;
+            match self.hit(&ray, candidates, observer) {
+                None => color = self.background(ray.direction),
                 Some(hit) => {
-                    let local = self.local_color(&ray, &hit, stack.len(), observer);
-                    match self.branches(&ray, &hit, stack.len()) {
-                        (Some(first), next) => {
+                    color = self.local_color(&ray, &hit, stack.len(), observer);
+                    if stack.len() < self.max_depth {
+                        let refracted = self.refracted(&ray, &hit);
+                        // Cast the mirror ray first and keep the refracted one for later.
+                        let (next, weight) = match self.mirrored(&ray, &hit) {
+                            Some(mirrored) => {
+                                kind = RayKind::Reflected;
+                                ray = mirrored.ray;
+                                (refracted, Some(mirrored.weight))
+                            }
+                            None => match refracted {
+                                Some(refracted) => {
+                                    kind = RayKind::Refracted;
+                                    ray = refracted.ray;
+                                    (None, Some(refracted.weight))
+                                }
+                                None => (None, None),
+                            },
+                        };
+                        if let Some(weight) = weight {
                             let frame = Frame {
-                                color: local,
-                                weight: first.weight,
+                                color,
+                                weight,
                                 next,
                             };
-                            // There is room: no branches come from `max_depth ≤ STACK` frames.
+                            // There is room, because `max_depth ≤ STACK`.
                             if stack.push(frame).is_ok() {
-                                (ray, kind) = (first.ray, first.kind);
+                                candidates = self.reach(ray.leaves).near;
                                 continue;
                             }
-                            local.clamp()
                         }
-                        (None, _) => local.clamp(),
                     }
+                    color = color.clamp();
                 }
-            };
+            }
             // Hand the colour up, to the first frame that has a ray left to cast.
             loop {
                 let Some(frame) = stack.last_mut() else {
                     return color;
                 };
                 frame.color = frame.color + color * frame.weight;
-                if let Some(branch) = frame.next.take() {
+                if stage(NEEDS, Needs::REFRACTION)
+                    && let Some(branch) = frame.next.take()
+                {
                     frame.weight = branch.weight;
-                    (ray, kind) = (branch.ray, branch.kind);
+                    kind = RayKind::Refracted;
+                    ray = branch.ray;
+                    candidates = self.reach(ray.leaves).near;
                     break;
                 }
                 color = frame.color.clamp();
@@ -361,14 +464,21 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
 
     /// The nearest hit, projected back onto its surface and turned to face the ray.
     #[inline(always)]
-    fn hit(&self, ray: &Ray<T>, observer: &mut impl Observer<T>) -> Option<Hit<'a, T>> {
-        let nearest = self.nearest_observed(ray, observer)?;
-        let point = match nearest.object {
-            Object::Sphere(sphere) => sphere.surface_point(ray, nearest.t),
-            Object::Plane(plane) => plane.surface_point(ray, nearest.t),
-            Object::Triangle(triangle) => triangle.surface_point(nearest.place),
+    fn hit(
+        &self,
+        ray: &Ray<T>,
+        candidates: ObjectSet,
+        observer: &mut impl Observer<T>,
+    ) -> Option<Hit<'a, T>> {
+        let closest = self.closest(ray, candidates, observer);
+        let (point, surface) = if let Some(sphere) = closest.sphere {
+            (sphere.surface_point(ray, closest.t), sphere.surface())
+        } else if let Some(plane) = closest.plane {
+            (plane.surface_point(ray, closest.t), plane.surface())
+        } else {
+            let (triangle, place) = closest.triangle?;
+            (triangle.surface_point(place), triangle.surface())
         };
-        let surface = nearest.object.surface();
         let slope = point.normal.dot(ray.direction);
         let entering = slope <= T::ZERO;
         let normal = if entering {
@@ -378,7 +488,8 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         };
         let step = normal * point.offset;
         Some(Hit {
-            surface,
+            facing: Side::new(surface.number, entering),
+            beyond: Side::new(surface.number, !entering),
             material: self.material(surface)?,
             normal,
             cosine: slope.abs(),
@@ -388,51 +499,40 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         })
     }
 
-    /// The secondary rays of a hit, in the order they are cast; the first is there if any is.
+    /// The mirror ray of a hit, if its material has one.
     #[inline(always)]
-    fn branches(
-        &self,
-        ray: &Ray<T>,
-        hit: &Hit<'a, T>,
-        depth: usize,
-    ) -> (Option<Branch<T>>, Option<Branch<T>>) {
-        if depth >= self.max_depth {
-            return (None, None);
+    fn mirrored(&self, ray: &Ray<T>, hit: &Hit<'a, T>) -> Option<Branch<T>> {
+        let weight = hit.material.description().reflection;
+        (stage(NEEDS, Needs::REFLECTION) && weight > T::ZERO).then(|| Branch {
+            ray: Ray {
+                origin: hit.outside,
+                direction: ray.direction.reflect(hit.normal),
+                leaves: hit.facing,
+            },
+            weight,
+        })
+    }
+
+    /// The refracted ray of a hit, if its material has one and it is not totally reflected.
+    #[inline(always)]
+    fn refracted(&self, ray: &Ray<T>, hit: &Hit<'a, T>) -> Option<Branch<T>> {
+        let weight = hit.material.description().refraction;
+        if !(stage(NEEDS, Needs::REFRACTION) && weight > T::ZERO) {
+            return None;
         }
-        let description = hit.material.description();
-        let mut mirror = None;
-        if stage(NEEDS, Needs::REFLECTION) && description.reflection > T::ZERO {
-            mirror = Some(Branch {
-                kind: RayKind::Reflected,
-                ray: Ray {
-                    origin: hit.outside,
-                    direction: ray.direction.reflect(hit.normal),
-                    leaves: hit.surface.number,
-                },
-                weight: description.reflection,
-            });
-        }
-        let mut refracted = None;
-        if stage(NEEDS, Needs::REFRACTION) && description.refraction > T::ZERO {
-            refracted = self.refract(ray, hit).map(|direction| Branch {
-                kind: RayKind::Refracted,
-                ray: Ray {
-                    origin: hit.inside,
-                    direction,
-                    leaves: hit.surface.number,
-                },
-                weight: description.refraction,
-            });
-        }
-        match mirror {
-            Some(_) => (mirror, refracted),
-            None => (refracted, None),
-        }
+        Some(Branch {
+            ray: Ray {
+                origin: hit.inside,
+                direction: self.refracted_direction(ray, hit)?,
+                leaves: hit.beyond,
+            },
+            weight,
+        })
     }
 
     /// Direction beyond the surface; `None` at total internal reflection.
     #[inline(always)]
-    fn refract(&self, ray: &Ray<T>, hit: &Hit<'a, T>) -> Option<Vec3<T>> {
+    fn refracted_direction(&self, ray: &Ray<T>, hit: &Hit<'a, T>) -> Option<Vec3<T>> {
         // Index 1 passes straight through, to the bit.
         if !stage(NEEDS, Needs::BENDING) || hit.material.description().index_of_refraction == T::ONE
         {
@@ -457,14 +557,16 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
     }
 
     /// What the pixels of a row have in common.
-    #[inline(always)]
     pub fn scanline(&self, y: u16) -> Scanline<T> {
+        let row_height = self.scene.camera.row_height(self.resolution, y);
+        let half_width = self.scene.camera.half_width(self.resolution);
         Scanline {
-            row_height: self.scene.camera.row_height(self.resolution, y),
+            row_height,
+            visible: visible_in_row(&self.scene, row_height, half_width),
         }
     }
 
-    /// The primary ray of a pixel.
+    /// The primary ray of a pixel; `x` must lie in the picture.
     #[inline(always)]
     pub fn primary_ray(&self, scanline: &Scanline<T>, x: u16) -> Ray<T> {
         self.scene
@@ -475,31 +577,31 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
     /// The linear colour of a pixel, each channel in 0…1: a pure function of scene, settings and
     /// coordinates.
     pub fn pixel(&self, x: u16, y: u16) -> Color<T> {
-        self.radiance(self.primary_ray(&self.scanline(y), x))
+        self.pixel_observed(&self.scanline(y), x, &mut ())
+    }
+
+    /// A pixel of a row, watched.
+    #[inline(always)]
+    pub fn pixel_observed(
+        &self,
+        scanline: &Scanline<T>,
+        x: u16,
+        observer: &mut impl Observer<T>,
+    ) -> Color<T> {
+        self.radiance_observed(self.primary_ray(scanline, x), scanline.visible, observer)
     }
 }
 
-/// Keeps the closer of two hits, and of two at the same distance the first in the file.
+/// The members of a set, among the objects of one shape, in their order.
 #[inline(always)]
-fn closer<'a, T: Scalar>(
-    nearest: &mut Option<Nearest<'a, T>>,
-    t_max: &mut T,
-    t: T,
-    object: Object<'a, T>,
-) -> bool {
-    if let Some(other) = nearest
-        && t == other.t
-        && other.object.surface().number < object.surface().number
-    {
-        return false;
-    }
-    *t_max = t;
-    *nearest = Some(Nearest {
-        t,
-        object,
-        place: Barycentric::default(),
-    });
-    true
+fn members<O>(objects: &[O], set: u32) -> impl Iterator<Item = &O> {
+    let mut set = set;
+    objects.iter().filter(move |_| {
+        let is_member = set & 1 != 0;
+        // Ones move in from above: objects without a bit are in every set.
+        set = set >> 1 | 1 << (u32::BITS - 1);
+        is_member
+    })
 }
 
 macro_rules! specialize {

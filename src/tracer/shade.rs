@@ -20,7 +20,8 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
     ) -> Color<T> {
         let material = hit.material.description();
         let mut color = self.scene.ambient_color(material);
-        if !stage(NEEDS, Needs::LIGHT) {
+        let reach = self.reach(hit.facing);
+        if !stage(NEEDS, Needs::LIGHT) || (stage(NEEDS, Needs::SHADOWS) && reach.shadowed) {
             return color;
         }
         for light in self.scene.lights {
@@ -40,10 +41,10 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                 let shadow = Ray {
                     origin: hit.outside,
                     direction,
-                    leaves: hit.surface.number,
+                    leaves: hit.facing,
                 };
                 observer.ray(RayKind::Shadow, depth, &shadow);
-                if self.occluded_observed(&shadow, distance, observer) {
+                if self.occluded_observed(&shadow, distance, reach.occluders, observer) {
                     continue;
                 }
             }

@@ -2,7 +2,6 @@
 
 use heapless::Vec;
 
-use super::RayKind;
 use crate::color::Color;
 use crate::ray::Ray;
 
@@ -20,10 +19,9 @@ pub(super) struct Frame<T> {
     pub(super) next: Option<Branch<T>>,
 }
 
-/// A secondary ray, to be cast.
+/// A refracted ray that waits until the mirror ray of the same hit is done.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Branch<T> {
-    pub(super) kind: RayKind,
     pub(super) ray: Ray<T>,
     /// What its colour is multiplied with.
     pub(super) weight: T,

@@ -1,0 +1,64 @@
+//! What the camera can see in a row of pixels.
+
+use super::{Ball, collect, margin, size};
+use crate::scalar::Scalar;
+use crate::scene::{Object, ObjectSet, Scene};
+use crate::shape::Plane;
+use crate::vec3::Vec3;
+
+/// The objects that the camera's rays in the directions `(x, row_height, 1)`, `|x| ≤ half_width`, can
+/// meet.
+pub(crate) fn visible_in_row<T: Scalar>(
+    scene: &Scene<'_, T>,
+    row_height: T,
+    half_width: T,
+) -> ObjectSet {
+    let row = Row {
+        origin: scene.camera.position,
+        height: row_height,
+        half_width,
+        across: T::ONE / (T::ONE + row_height * row_height).sqrt(),
+        beside: T::ONE / (T::ONE + half_width * half_width).sqrt(),
+    };
+    collect(scene, |object| match (object, Ball::around(object)) {
+        (Object::Plane(plane), _) => row.may_show_plane(plane),
+        (_, Some(ball)) => row.may_show_ball(ball),
+        _ => true,
+    })
+}
+
+/// The flat sector of the rays of a row.
+struct Row<T> {
+    origin: Vec3<T>,
+    height: T,
+    half_width: T,
+    /// Scales `y − height·z` to a distance from the plane of the row.
+    across: T,
+    /// Scales `x − half_width·z` to a distance from the plane at its end.
+    beside: T,
+}
+
+impl<T: Scalar> Row<T> {
+    fn may_show_ball(&self, ball: Ball<T>) -> bool {
+        let f = ball.center - self.origin;
+        let reach = ball.radius + margin(size(self.origin) + size(ball.center), ball.radius);
+        let across = (f.y - self.height * f.z).abs() * self.across;
+        let beside = (f.x.abs() - self.half_width * f.z) * self.beside;
+        // Not on the row, beyond its ends, or behind the camera.
+        !(across > reach || beside > reach || -f.z > reach)
+    }
+
+    /// A plane is met where its slope along the ray has the sign of its height above the camera, which
+    /// does not depend on the distance.
+    fn may_show_plane(&self, plane: &Plane<T>) -> bool {
+        let n = plane.normal();
+        let slope = n.y * self.height + n.z;
+        let spread = n.x.abs() * self.half_width
+            + margin(T::ONE + self.height.abs() + self.half_width, T::ZERO);
+        if plane.height() > n.dot(self.origin) {
+            slope + spread > T::ZERO
+        } else {
+            slope - spread < T::ZERO
+        }
+    }
+}
