@@ -1,0 +1,73 @@
+//! The command line as a whole.
+
+use std::path::Path;
+
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{CommandFactory, Parser, Subcommand};
+
+use crate::commands::inspect::InspectArgs;
+use crate::commands::render::RenderArgs;
+
+/// Draws scenes for small displays on the desktop, with the bits the device will draw.
+#[derive(Parser, Debug)]
+#[command(
+    name = "scanray",
+    version,
+    after_help = "\
+Without a command, the built-in scene is drawn into output.ppm.
+
+Examples:
+  scanray                                  draw the built-in scene
+  scanray render scene.txt -o scene.png    draw a scene into a PNG file
+  scanray render scene.txt -o tft.png --size 160x128 --color rgb565 --dither
+                                           see it as a small colour display shows it
+  scanray inspect scene.txt                check what was read
+  scanray help render                      all that render can do
+
+Exit codes: 0 fine, 1 pictures differ, 2 usage, 3 scene, 4 files."
+)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+}
+
+/// The commands.
+#[derive(Subcommand, Debug)]
+pub(crate) enum Command {
+    /// Draw scenes into image files
+    Render(RenderArgs),
+    /// Print a scene as it was read
+    Inspect(InspectArgs),
+}
+
+impl Cli {
+    /// The program's command line. Ends the program for `--help` and for what cannot be understood.
+    pub(crate) fn from_arguments() -> Self {
+        Self::try_parse().unwrap_or_else(|error| with_hint(error).exit())
+    }
+}
+
+/// Adds what a newcomer may have meant: a scene or an option without the command.
+fn with_hint(error: clap::Error) -> clap::Error {
+    let word = |kind| match error.get(kind) {
+        Some(ContextValue::String(word)) => Some(word.clone()),
+        _ => None,
+    };
+    let hint = match error.kind() {
+        ErrorKind::InvalidSubcommand => word(ContextKind::InvalidSubcommand)
+            .filter(|word| word.ends_with(".txt") || Path::new(word).exists())
+            .map(|path| format!("{path} is no command; to draw it: scanray render {path}")),
+        ErrorKind::UnknownArgument
+            if std::env::args().nth(1).is_some_and(|a| a.starts_with('-')) =>
+        {
+            word(ContextKind::InvalidArg).map(|option| {
+                format!("{option} needs a command before it: scanray render {option} …")
+            })
+        }
+        _ => None,
+    };
+    match hint {
+        Some(hint) => Cli::command().error(error.kind(), hint),
+        None => error,
+    }
+}

@@ -1,0 +1,50 @@
+//! `scanray inspect`: the scene as it is stored.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+
+use crate::console::print;
+use crate::failure::Failure;
+use crate::options::ScalarName;
+use crate::pools::HostScalar;
+use crate::scene_data;
+use crate::scene_file::SceneSource;
+
+/// The command line.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  scanray inspect                      the default scene
+  scanray inspect scenes/pyramids.txt
+  grep -v '^2' scene.txt | scanray inspect -")]
+pub(crate) struct InspectArgs {
+    /// Scene file, `-` for standard input [default: the built-in scene]
+    #[arg(value_name = "SCENE")]
+    scene: Option<PathBuf>,
+
+    /// Number type that the scene is stored in
+    #[arg(long, value_name = "TYPE", default_value = "f32")]
+    scalar: ScalarName,
+}
+
+/// Prints the scene.
+///
+/// # Errors
+///
+/// [`Failure`].
+pub(crate) fn run(args: &InspectArgs) -> Result<ExitCode, Failure> {
+    let scene = SceneSource::named(args.scene.as_deref());
+    match args.scalar {
+        ScalarName::F32 => inspect::<f32>(&scene)?,
+        ScalarName::F64 => inspect::<f64>(&scene)?,
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn inspect<T: HostScalar>(scene: &SceneSource) -> Result<(), Failure> {
+    let mut pools = T::pools();
+    scene.load(&mut pools)?;
+    print(|out| scene_data::write(out, &pools.as_scene()))
+}

@@ -1,0 +1,4 @@
+//! The commands, one file each.
+
+pub(crate) mod inspect;
+pub(crate) mod render;

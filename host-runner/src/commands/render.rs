@@ -1,0 +1,336 @@
+//! `scanray render`: scenes into image files.
+
+use std::collections::HashMap;
+use std::io::{self, IsTerminal};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+use embedded_graphics::pixelcolor::Rgb888;
+use scanray::{DEFAULT_MAX_DEPTH, DisplayColor, Picture, Quantizer, Scalar};
+
+use crate::canvas::Canvas;
+use crate::console::{print, say};
+use crate::drawing::{HostTracer, Parts, Workers};
+use crate::failure::Failure;
+use crate::image::{self, ImageFormat};
+use crate::options::{ColorName, RowRange, ScalarName, Size, max_depth, name_of, with_color};
+use crate::output::Place;
+use crate::pools::HostScalar;
+use crate::render_report::{Pools, RenderReport};
+use crate::scene_data;
+use crate::scene_file::SceneSource;
+
+/// The command line.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  scanray render                                      the default scene, to output.ppm
+  scanray render scenes/pyramids.txt -o pyramids.png  a PNG file
+  scanray render scene.txt -o tft.png --size 160x128 --color rgb565 --dither
+                                                      as a small colour display shows it
+  scanray render scene.txt -o oled.png --size 128x64 --color binary --dither
+                                                      as a monochrome display shows it
+  scanray render scenes/*.txt -o pictures             each scene to pictures/NAME.ppm
+  scanray render scene.txt -o - | pnmtojpeg > scene.jpg
+  scanray render scene.txt --json | jq .rays          what the picture took")]
+pub(crate) struct RenderArgs {
+    /// Scene files, `-` for standard input [default: the built-in scene]
+    #[arg(value_name = "SCENE")]
+    scenes: Vec<PathBuf>,
+
+    /// File that ends in .ppm or .png, existing folder, or `-` for PPM on standard output [default:
+    /// output.ppm for one scene, NAME.ppm for each of several]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+
+    /// Width and height in pixels [default: the scene's own]
+    #[arg(long, value_name = "WxH")]
+    size: Option<Size>,
+
+    /// How many mirrored or refracted rays may follow one another, at most 32
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = DEFAULT_MAX_DEPTH,
+        value_parser = max_depth,
+        allow_negative_numbers = true
+    )]
+    max_depth: usize,
+
+    /// Colours of the display
+    #[arg(
+        long,
+        value_name = "NAME",
+        default_value = "rgb888",
+        hide_possible_values = false
+    )]
+    color: ColorName,
+
+    /// Show shades between two levels by a fixed pattern (ordered dither)
+    #[arg(long)]
+    dither: bool,
+
+    /// Number type of the tracer
+    #[arg(long, value_name = "TYPE", default_value = "f32")]
+    scalar: ScalarName,
+
+    /// Draw only rows A up to, but not including, B; the file holds nothing else
+    #[arg(long, value_name = "A..B")]
+    rows: Option<RowRange>,
+
+    /// Threads that draw [default: one for each core]; the picture is the same for any number
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+
+    /// Print time, rays, intersection tests and pools as JSON, one line for each scene
+    #[arg(long)]
+    json: bool,
+
+    /// Print the scene data, as `scanray inspect` does
+    #[arg(short, long)]
+    verbose: bool,
+}
+
+impl Default for RenderArgs {
+    fn default() -> Self {
+        Self {
+            scenes: Vec::new(),
+            output: None,
+            size: None,
+            max_depth: DEFAULT_MAX_DEPTH,
+            color: ColorName::Rgb888,
+            dither: false,
+            scalar: ScalarName::F32,
+            rows: None,
+            threads: None,
+            json: false,
+            verbose: false,
+        }
+    }
+}
+
+/// A picture to be drawn.
+struct Job<'a> {
+    args: &'a RenderArgs,
+    workers: &'a Workers,
+    scene: &'a SceneSource,
+    place: &'a Place,
+    format: ImageFormat,
+}
+
+/// Draws the scenes. One that fails does not keep the others from being drawn.
+///
+/// # Errors
+///
+/// [`Failure`], for what concerns them all.
+pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
+    let scenes = SceneSource::list(&args.scenes);
+    let places = places(&scenes, args.output.as_deref())?;
+    if args.json && matches!(*places, [(Place::Stdout, _)]) {
+        return Err(Failure::Usage(
+            "--json and -o - both want standard output: name a file with -o".to_owned(),
+        ));
+    }
+    let workers = Workers::new(args.threads)?;
+    let mut code = ExitCode::SUCCESS;
+    for (scene, (place, format)) in scenes.iter().zip(&places) {
+        let job = Job {
+            args,
+            workers: &workers,
+            scene,
+            place,
+            format: *format,
+        };
+        let result = match args.scalar {
+            ScalarName::F32 => job.run::<f32>(),
+            ScalarName::F64 => job.run::<f64>(),
+        };
+        match result {
+            Ok(()) => {}
+            Err(Failure::ClosedPipe) => return Err(Failure::ClosedPipe),
+            Err(failure) => {
+                let its_code = failure.report();
+                if code == ExitCode::SUCCESS {
+                    code = its_code;
+                }
+            }
+        }
+    }
+    Ok(code)
+}
+
+/// Where the picture of each scene goes, and in which format.
+fn places(
+    scenes: &[SceneSource],
+    output: Option<&Path>,
+) -> Result<Vec<(Place, ImageFormat)>, Failure> {
+    let by_name = |folder: &Path| -> Result<Vec<(Place, ImageFormat)>, Failure> {
+        let paths: Vec<_> = scenes
+            .iter()
+            .map(|scene| {
+                let mut name = scene.stem().into_os_string();
+                name.push(".ppm");
+                folder.join(name)
+            })
+            .collect();
+        refuse_doubles(scenes, &paths)?;
+        paths
+            .iter()
+            .map(|path| Ok((Place::file(path)?, ImageFormat::Ppm)))
+            .collect()
+    };
+    match (output, scenes) {
+        (None, [_]) => Ok(vec![(
+            Place::file(Path::new("output.ppm"))?,
+            ImageFormat::Ppm,
+        )]),
+        (None, _) => by_name(Path::new("")),
+        (Some(folder), _) if folder.is_dir() => by_name(folder),
+        (Some(output), [_]) => single_place(output).map(|place| vec![place]),
+        (Some(output), _) => Err(Failure::Usage(format!(
+            "-o {} cannot take the pictures of {} scenes: name an existing folder, or leave -o out to \
+             get NAME.ppm for each in this one",
+            output.display(),
+            scenes.len()
+        ))),
+    }
+}
+
+/// The place that `-o` names for one picture.
+fn single_place(output: &Path) -> Result<(Place, ImageFormat), Failure> {
+    if output.as_os_str() == "-" {
+        if io::stdout().is_terminal() {
+            return Err(Failure::Usage(
+                "-o - would write a picture on the terminal: add `> FILE` or `| COMMAND`"
+                    .to_owned(),
+            ));
+        }
+        return Ok((Place::Stdout, ImageFormat::Ppm));
+    }
+    let name = output.display();
+    if output.to_string_lossy().ends_with(std::path::is_separator) {
+        return Err(Failure::Usage(format!(
+            "-o {name}: there is no such folder"
+        )));
+    }
+    let format = ImageFormat::of(output);
+    // A device or pipe has no extension.
+    if format.is_none() && !output.metadata().is_ok_and(|there| !there.is_file()) {
+        return Err(Failure::Usage(format!(
+            "-o {name}: the name must end in .ppm or .png"
+        )));
+    }
+    Ok((Place::file(output)?, format.unwrap_or(ImageFormat::Ppm)))
+}
+
+/// Two scenes must not become one file.
+fn refuse_doubles(scenes: &[SceneSource], paths: &[PathBuf]) -> Result<(), Failure> {
+    let mut first_with = HashMap::new();
+    for (scene, path) in scenes.iter().zip(paths) {
+        if let Some(first) = first_with.insert(path, scene) {
+            return Err(Failure::Usage(format!(
+                "{} and {} would both become {}: draw them one by one with -o",
+                first.name(),
+                scene.name(),
+                path.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
+impl Job<'_> {
+    fn run<T: HostScalar>(&self) -> Result<(), Failure> {
+        let args = self.args;
+        let mut pools = T::pools();
+        self.scene.load(&mut pools)?;
+        let scene = pools.as_scene();
+        if args.verbose {
+            // The listing is for people when standard output is taken by data.
+            if args.json || matches!(self.place, Place::Stdout) {
+                let _ = scene_data::write(&mut io::stderr().lock(), &scene);
+            } else {
+                print(|out| scene_data::write(out, &scene))?;
+            }
+        }
+        let resolution = args.size.map_or(scene.resolution, |Size(size)| size);
+        let rows = RowRange::within(args.rows, resolution.height).map_err(Failure::Usage)?;
+        let tracer = HostTracer::new(scene, resolution, args.max_depth)?;
+        let mut report = RenderReport {
+            scene: self.scene.name(),
+            file: self.place.name(),
+            bytes: 0,
+            size: resolution,
+            rows: rows.clone(),
+            scalar: T::NAME,
+            color: name_of(args.color),
+            dither: args.dither,
+            max_depth: args.max_depth,
+            threads: self.workers.count(),
+            seconds: 0.0,
+            counted_by: "a second pass, not timed",
+            rays: Default::default(),
+            tests: Default::default(),
+            pools: Pools(pools.usage()),
+        };
+        with_color!(args.color, C => self.draw_in_color::<T, C>(&tracer, &mut report))?;
+        self.say_saved(&report);
+        if args.json {
+            report.set_work(&tracer.count_work(rows, self.workers));
+            print(|out| report.write_json(out))?;
+        }
+        Ok(())
+    }
+
+    fn draw_in_color<T: Scalar, C: DisplayColor + Into<Rgb888> + Send + Sync>(
+        &self,
+        tracer: &HostTracer<'_, T>,
+        report: &mut RenderReport,
+    ) -> Result<(), Failure> {
+        let picture = Picture::new(tracer);
+        if self.args.dither {
+            self.draw::<T, scanray::Dithered<C>>(picture.dithered(), report)
+        } else {
+            self.draw::<T, scanray::Exact<C>>(picture, report)
+        }
+    }
+
+    /// Draws and writes the picture. Small ones are complete before their file is begun.
+    fn draw<T: Scalar, Q: Quantizer<Color: DisplayColor + Into<Rgb888> + Send> + Sync>(
+        &self,
+        picture: Picture<&HostTracer<'_, T>, Q>,
+        report: &mut RenderReport,
+    ) -> Result<(), Failure> {
+        let rows = report.rows.clone();
+        let mut parts = Parts::new(picture, rows.clone(), self.workers, &report.scene);
+        let first = parts.next();
+        report.bytes = self.place.write(|file| {
+            let size = [report.size.width, rows.len() as u16];
+            let canvases = first.into_iter().chain(&mut parts);
+            let mut rows = canvases.flat_map(Canvas::into_rows_rgb888);
+            image::write(self.format, file, size, &mut rows)
+        })?;
+        report.seconds = parts.time().as_secs_f64();
+        Ok(())
+    }
+
+    fn say_saved(&self, report: &RenderReport) {
+        let RenderReport {
+            size, rows, bytes, ..
+        } = report;
+        let part = if rows.len() < usize::from(size.height) {
+            format!("rows {}..{} of {}, ", rows.start, rows.end, size.height)
+        } else {
+            String::new()
+        };
+        let place = match self.place {
+            Place::Stdout => "written to standard output".to_owned(),
+            Place::File { .. } | Place::Device(_) => format!("file {} saved", self.place.name()),
+        };
+        let (width, height) = (size.width, rows.len());
+        say(format_args!(
+            "Image {place} ({width}x{height}, {part}{bytes} bytes)."
+        ));
+    }
+}

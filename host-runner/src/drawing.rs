@@ -1,0 +1,186 @@
+//! Drawing on all cores, as a device draws: a picture on a [`DrawTarget`], band by band.
+//!
+//! [`DrawTarget`]: embedded_graphics::draw_target::DrawTarget
+
+use std::ops::Range;
+use std::time::{Duration, Instant};
+
+use embedded_graphics::Drawable;
+use embedded_graphics::pixelcolor::Rgb888;
+use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use scanray::{
+    Color, DisplayColor, Needs, Picture, PixelSource, Quantizer, Resolution, Scalar, Scanline,
+    Scene, Tracer, WorkCount,
+};
+
+use crate::canvas::Canvas;
+use crate::failure::Failure;
+use crate::progress::Progress;
+
+/// The largest maximum depth.
+pub(crate) const MAX_DEPTH: usize = 32;
+
+/// A picture of more pixels is drawn and written in parts of about as many, so that memory has a
+/// bound.
+const PART_PIXELS: usize = 1 << 24;
+
+/// Rows that a thread draws before it takes new ones.
+const BAND_ROWS: usize = 4;
+
+/// The threads that draw.
+#[derive(Debug)]
+pub(crate) struct Workers(ThreadPool);
+
+impl Workers {
+    /// As many threads, or one for each core.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure::Usage`] when the system does not give so many.
+    pub(crate) fn new(threads: Option<u16>) -> Result<Self, Failure> {
+        ThreadPoolBuilder::new()
+            .num_threads(threads.map_or(0, usize::from))
+            .build()
+            .map(Self)
+            .map_err(|error| Failure::Usage(format!("cannot start the threads: {error}")))
+    }
+
+    /// How many there are.
+    pub(crate) fn count(&self) -> usize {
+        self.0.current_num_threads()
+    }
+}
+
+/// A tracer with every stage and the deepest stack.
+///
+/// As a source of pixels it is compiled once a scalar, not once more for each colour.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HostTracer<'a, T>(Tracer<'a, T, { Needs::ALL.bits() }, MAX_DEPTH>);
+
+impl<'a, T: Scalar> HostTracer<'a, T> {
+    /// A tracer for a picture of a scene.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure::Usage`] for a larger maximum depth than [`MAX_DEPTH`].
+    pub(crate) fn new(
+        scene: Scene<'a, T>,
+        resolution: Resolution,
+        max_depth: usize,
+    ) -> Result<Self, Failure> {
+        Tracer::new(scene)
+            .with_stack()
+            .with_resolution(resolution)
+            .with_max_depth(max_depth)
+            .map(Self)
+            .map_err(|error| Failure::Usage(error.to_string()))
+    }
+
+    /// Rays and tests that the rows take. They are counted by tracing every pixel once more, so that
+    /// drawing is not slowed down by counting.
+    pub(crate) fn count_work(&self, rows: Range<u16>, workers: &Workers) -> WorkCount {
+        let tracer = &self.0;
+        let progress = Progress::new("Counting rays".to_owned(), rows.len() as u64);
+        let count_row = |y: u16| {
+            let mut count = WorkCount::default();
+            let scanline = tracer.scanline(y);
+            for x in 0..tracer.resolution().width {
+                tracer.pixel_observed(&scanline, x, &mut count);
+            }
+            progress.advance(1);
+            count
+        };
+        let sum = |mut a: WorkCount, b: WorkCount| {
+            a.add(&b);
+            a
+        };
+        workers.0.install(|| {
+            rows.into_par_iter()
+                .map(count_row)
+                .reduce(WorkCount::default, sum)
+        })
+    }
+}
+
+impl<T: Scalar> PixelSource for HostTracer<'_, T> {
+    type Scalar = T;
+    type Scanline = Scanline<T>;
+
+    fn resolution(&self) -> Resolution {
+        self.0.resolution()
+    }
+
+    fn scanline(&self, y: u16) -> Scanline<T> {
+        self.0.scanline(y)
+    }
+
+    #[inline(never)]
+    fn pixel_on(&self, scanline: &Scanline<T>, x: u16) -> (Color<T>, u32) {
+        self.0.pixel_on(scanline, x)
+    }
+}
+
+/// Draws rows of a picture: an iterator over canvases, from top to bottom, that each hold many rows.
+#[derive(Debug)]
+pub(crate) struct Parts<'a, P, Q> {
+    picture: Picture<P, Q>,
+    rows: Range<u16>,
+    workers: &'a Workers,
+    progress: Progress,
+    time: Duration,
+}
+
+impl<'a, P: PixelSource, Q: Quantizer> Parts<'a, P, Q> {
+    /// Begins to draw rows of a picture; `name` is shown with the progress.
+    pub(crate) fn new(
+        picture: Picture<P, Q>,
+        rows: Range<u16>,
+        workers: &'a Workers,
+        name: &str,
+    ) -> Self {
+        Self {
+            picture,
+            progress: Progress::new(format!("Drawing {name}"), rows.len() as u64),
+            rows,
+            workers,
+            time: Duration::ZERO,
+        }
+    }
+
+    /// What drawing has taken so far, without what happens between the parts.
+    pub(crate) fn time(&self) -> Duration {
+        self.time
+    }
+}
+
+impl<P, Q> Iterator for Parts<'_, P, Q>
+where
+    P: PixelSource + Sync,
+    Q: Quantizer<Color: DisplayColor + Into<Rgb888> + Send> + Sync,
+{
+    type Item = Canvas<Q::Color>;
+
+    fn next(&mut self) -> Option<Canvas<Q::Color>> {
+        if self.rows.is_empty() {
+            return None;
+        }
+        let start = Instant::now();
+        let width = self.picture.resolution().width;
+        let most = (PART_PIXELS / usize::from(width)).max(1);
+        let rows = self.rows.len().min(most) as u16;
+        let top = self.rows.start;
+        self.rows.start += rows;
+
+        let mut canvas = Canvas::new(width, top, rows);
+        let (picture, progress) = (&self.picture, &self.progress);
+        self.workers.0.install(|| {
+            canvas.bands(BAND_ROWS).for_each(|mut band| {
+                let Ok(()) = picture.draw(&mut band);
+                progress.advance(band.rows());
+            });
+        });
+        self.time += start.elapsed();
+        Some(canvas)
+    }
+}

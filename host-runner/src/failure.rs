@@ -1,0 +1,46 @@
+//! Why a command ended early, and the exit code that says so.
+
+use std::fmt::Display;
+use std::io;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// The end of a command, with the words for it.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The command line asks for something that cannot be: code 2.
+    Usage(String),
+    /// A scene was rejected; the words are a whole report: code 3.
+    Scene(String),
+    /// A file could not be read or written: code 4.
+    Files(String),
+    /// Nobody reads standard output any more, as after `| head`: no words, code 0.
+    ClosedPipe,
+}
+
+impl Failure {
+    /// A file could not be read or written.
+    pub(crate) fn file(deed: &str, path: &Path, why: impl Display) -> Self {
+        Self::Files(format!("cannot {deed} {}: {why}", path.display()))
+    }
+
+    /// Standard output could not be written.
+    pub(crate) fn stdout(error: &io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::BrokenPipe => Self::ClosedPipe,
+            _ => Self::Files(format!("cannot write to standard output: {error}")),
+        }
+    }
+
+    /// Says on standard error what went wrong; returns the exit code.
+    pub(crate) fn report(&self) -> ExitCode {
+        let (code, words) = match self {
+            Self::Usage(words) => (2, format!("error: {words}")),
+            Self::Scene(report) => (3, report.clone()),
+            Self::Files(words) => (4, format!("error: {words}")),
+            Self::ClosedPipe => return ExitCode::SUCCESS,
+        };
+        crate::console::say(words);
+        ExitCode::from(code)
+    }
+}

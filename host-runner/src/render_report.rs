@@ -1,0 +1,114 @@
+//! What `scanray render --json` tells of a picture.
+
+use std::io::{self, Write};
+use std::ops::Range;
+
+use scanray::{PoolUse, Resolution, WorkCount};
+use serde::ser::{Serialize, SerializeMap, Serializer};
+
+/// A picture that was drawn, its settings and what it took.
+#[derive(Clone, Debug, serde::Serialize)]
+pub(crate) struct RenderReport {
+    pub(crate) scene: String,
+    pub(crate) file: String,
+    pub(crate) bytes: u64,
+    #[serde(serialize_with = "serialize_resolution")]
+    pub(crate) size: Resolution,
+    pub(crate) rows: Range<u16>,
+    pub(crate) scalar: &'static str,
+    pub(crate) color: String,
+    pub(crate) dither: bool,
+    pub(crate) max_depth: usize,
+    pub(crate) threads: usize,
+    /// Wall time of drawing, without loading, writing and counting.
+    pub(crate) seconds: f64,
+    /// How `rays` and `tests` came about.
+    pub(crate) counted_by: &'static str,
+    pub(crate) rays: Rays,
+    pub(crate) tests: Tests,
+    pub(crate) pools: Pools,
+}
+
+/// Rays by kind.
+#[derive(Clone, Debug, Default, serde::Serialize)]
+pub(crate) struct Rays {
+    primary: u64,
+    reflected: u64,
+    refracted: u64,
+    shadow: u64,
+    total: u64,
+}
+
+/// Intersection tests by kind.
+#[derive(Clone, Debug, Default, serde::Serialize)]
+pub(crate) struct Tests {
+    sphere: u64,
+    plane: u64,
+    triangle: u64,
+    total: u64,
+}
+
+/// How full the pools are.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pools(pub(crate) [PoolUse; 5]);
+
+impl RenderReport {
+    /// Enters what the picture took.
+    pub(crate) fn set_work(&mut self, work: &WorkCount) {
+        self.rays = Rays {
+            primary: work.primary_rays,
+            reflected: work.reflected_rays,
+            refracted: work.refracted_rays,
+            shadow: work.shadow_rays,
+            total: work.rays(),
+        };
+        self.tests = Tests {
+            sphere: work.sphere_tests,
+            plane: work.plane_tests,
+            triangle: work.triangle_tests,
+            total: work.tests(),
+        };
+    }
+
+    /// Writes a line of JSON.
+    ///
+    /// # Errors
+    ///
+    /// Those of `out`.
+    pub(crate) fn write_json(&self, out: &mut dyn Write) -> io::Result<()> {
+        serde_json::to_writer(&mut *out, self)?;
+        writeln!(out)
+    }
+}
+
+fn serialize_resolution<S: Serializer>(size: &Resolution, to: S) -> Result<S::Ok, S::Error> {
+    let mut map = to.serialize_map(Some(2))?;
+    map.serialize_entry("width", &size.width)?;
+    map.serialize_entry("height", &size.height)?;
+    map.end()
+}
+
+impl Serialize for Pools {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        /// One pool; `bytes` are those of the entries in use.
+        #[derive(serde::Serialize)]
+        struct Usage {
+            used: usize,
+            capacity: usize,
+            bytes: usize,
+            capacity_bytes: usize,
+        }
+        let mut map = to.serialize_map(Some(self.0.len()))?;
+        for pool in &self.0 {
+            let entry_bytes = pool.bytes.checked_div(pool.capacity).unwrap_or(0);
+            let usage = Usage {
+                used: pool.used,
+                capacity: pool.capacity,
+                bytes: pool.used * entry_bytes,
+                capacity_bytes: pool.bytes,
+            };
+            map.serialize_entry(pool.pool.name(), &usage)?;
+        }
+        map.end()
+    }
+}

@@ -1,0 +1,158 @@
+//! Scenes from files, from standard input or from the program itself, and what is said of bad ones.
+
+use std::fs::File;
+use std::io::{self, IsTerminal, Read};
+use std::path::{Path, PathBuf};
+
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use scanray::ParseError;
+
+use crate::console::say;
+use crate::failure::Failure;
+use crate::pools::{HostPools, HostScalar};
+
+/// The scene that is drawn when none is named.
+const DEFAULT_SCENE: &[u8] = include_bytes!("../../scenes/default.txt");
+
+/// No text is longer than this: several times what fills all pools, and not all of the memory when
+/// someone names an endless file.
+const MAX_TEXT_BYTES: u64 = 256 << 20;
+
+/// Where a scene's text is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum SceneSource {
+    /// In the program.
+    Default,
+    /// On standard input.
+    Stdin,
+    /// In a file.
+    File(PathBuf),
+}
+
+impl SceneSource {
+    /// The scene of a command line, which may name none.
+    pub(crate) fn named(path: Option<&Path>) -> Self {
+        match path {
+            None => Self::Default,
+            Some(path) if path.as_os_str() == "-" => Self::Stdin,
+            Some(path) => Self::File(path.to_owned()),
+        }
+    }
+
+    /// The scenes of a command line that may name several.
+    pub(crate) fn list(paths: &[PathBuf]) -> Vec<Self> {
+        if paths.is_empty() {
+            vec![Self::Default]
+        } else {
+            let named = |path: &PathBuf| Self::named(Some(path));
+            paths.iter().map(named).collect()
+        }
+    }
+
+    /// Its name in messages.
+    pub(crate) fn name(&self) -> String {
+        match self {
+            Self::Default => "<default scene>".to_owned(),
+            Self::Stdin => "<stdin>".to_owned(),
+            Self::File(path) => path.display().to_string(),
+        }
+    }
+
+    /// What a file made from it is called, before the extension.
+    pub(crate) fn stem(&self) -> PathBuf {
+        match self {
+            Self::Default => "default".into(),
+            Self::Stdin => "stdin".into(),
+            Self::File(path) => path.file_stem().unwrap_or(path.as_os_str()).into(),
+        }
+    }
+
+    /// The scene's text.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure::Files`].
+    fn read(&self) -> Result<Vec<u8>, Failure> {
+        let cannot =
+            |error: io::Error| Failure::Files(format!("cannot read {}: {error}", self.name()));
+        let mut text = Vec::new();
+        let input: &mut dyn Read = match self {
+            Self::Default => return Ok(DEFAULT_SCENE.to_vec()),
+            Self::Stdin => &mut io::stdin().lock(),
+            Self::File(path) => &mut File::open(path).map_err(cannot)?,
+        };
+        input
+            .take(MAX_TEXT_BYTES + 1)
+            .read_to_end(&mut text)
+            .map_err(cannot)?;
+        if text.len() as u64 > MAX_TEXT_BYTES {
+            let limit = MAX_TEXT_BYTES >> 20;
+            return Err(Failure::Files(format!(
+                "cannot read {}: a scene's text is at most {limit} MiB long",
+                self.name()
+            )));
+        }
+        Ok(text)
+    }
+
+    /// Replaces the scene in the pools by this one, and prints the parser's warnings.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure::Files`] and [`Failure::Scene`].
+    pub(crate) fn load<T: HostScalar>(&self, pools: &mut HostPools<T>) -> Result<(), Failure> {
+        let text = self.read()?;
+        let report = pools.parse(&text).map_err(|error| {
+            Failure::Scene(error_report(&self.name(), &text, &error, &renderer()))
+        })?;
+        if let Some(line) = report.short_light_line {
+            say(format_args!(
+                "warning: {}:{line}: the light has 8 numbers instead of 9; the last one is used \
+                 twice, for green and blue of the diffuse intensity",
+                self.name()
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// Colours where a person looks at them.
+fn renderer() -> Renderer {
+    let is_plain = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+    if io::stderr().is_terminal() && !is_plain {
+        Renderer::styled()
+    } else {
+        Renderer::plain()
+    }
+}
+
+/// What is wrong with a scene, with its line and a caret below the place.
+fn error_report(name: &str, text: &[u8], error: &ParseError, renderer: &Renderer) -> String {
+    // The line of the error, and the place in it. Only the line is shown, because the rest may be no
+    // UTF-8, which would move the places.
+    let offset = error.offset.min(text.len());
+    let before = text[..offset]
+        .rsplit(|byte| *byte == b'\n')
+        .next()
+        .unwrap_or_default();
+    let behind = text[offset..]
+        .split(|byte| *byte == b'\n')
+        .next()
+        .unwrap_or_default();
+    let word_length = behind
+        .iter()
+        .position(|byte| byte.is_ascii_whitespace() || *byte == b'#')
+        .unwrap_or(behind.len());
+    let (word, rest) = behind.split_at(word_length);
+    let [before, word, rest] = [before, word, rest].map(String::from_utf8_lossy);
+    let span = before.len()..before.len() + word.len();
+    let line = [&*before, &*word, rest.trim_end_matches('\r')].concat();
+
+    let snippet = Snippet::source(line)
+        .path(name)
+        .line_start(error.line as usize)
+        .annotation(AnnotationKind::Primary.span(span));
+    let title = Level::ERROR.primary_title(error.message().to_string());
+    let group: Group<'_> = title.element(snippet);
+    renderer.render(&[group])
+}

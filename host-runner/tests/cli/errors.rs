@@ -1,0 +1,208 @@
+//! Wrong command lines and wrong scenes.
+
+use crate::program::{Folder, SMALL_SCENE, scene};
+
+#[test]
+fn usage_errors_say_what_to_do() {
+    let folder = Folder::new();
+    let default = scene("default");
+    for (arguments, words) in [
+        (&["render", "--size", "160"][..], "such as 320x240"),
+        (&["render", "--size", "0x120"], "from 1 to 65535 pixels"),
+        (&["render", "--size", "70000x1"], "from 1 to 65535 pixels"),
+        (
+            &["render", "--max-depth", "33"],
+            "from 0 (no mirror rays) to 32",
+        ),
+        (&["render", "--max-depth", "-1"], "from 0 (no mirror rays)"),
+        (&["render", "--rows", "5"], "such as 0..100"),
+        (&["render", "--rows", "5..5"], "such as 0..100"),
+        (&["render", "--rows", "0..601"], "the most is 0..600"),
+        (&["render", "--threads", "0"], "1..=1024"),
+        (&["render", "--color", "rgb"], "possible values: rgb888, "),
+        (&["render", "--scalar", "f16"], "possible values: f32, f64"),
+        (&["render", "-o", "picture.jpg"], "must end in .ppm or .png"),
+        (&["render", "-o", "picture"], "must end in .ppm or .png"),
+        (&["render", "-o", "pictures/"], "there is no such folder"),
+        (&["render", "-o", "-", "--json"], "name a file with -o"),
+        (
+            &["render", &default, "a.txt", "-o", "a.ppm"],
+            "name an existing folder, or leave -o out",
+        ),
+        (
+            &["render", &default, "default.txt"],
+            "would both become default.ppm",
+        ),
+        (&["rendr"], "a similar subcommand exists: 'render'"),
+        (&["scene.txt"], "scanray render scene.txt"),
+        (&["--size", "9x9"], "scanray render --size"),
+    ] {
+        let said = folder.fail(2, arguments);
+        assert!(said.contains("error: "), "{arguments:?}: {said}");
+        assert!(said.contains(words), "{arguments:?}: {said}");
+    }
+    assert_eq!(folder.names(), [""; 0]);
+}
+
+#[test]
+fn a_usage_error_of_rows_depends_on_the_size() {
+    let folder = Folder::new();
+    folder.succeed(&["render", "--rows", "600..601", "--size", "2x700"]);
+    let said = folder.fail(2, &["render", "--rows", "20..", "--size", "8x16"]);
+    assert!(
+        said.contains("--rows 20..: the picture has 16 rows"),
+        "{said}"
+    );
+}
+
+#[test]
+fn files_that_cannot_be_read_have_their_own_code() {
+    let folder = Folder::new();
+    for command in ["render", "inspect"] {
+        let said = folder.fail(4, &[command, "missing.txt"]);
+        assert!(said.contains("cannot read missing.txt: "), "{said}");
+        let said = folder.fail(4, &[command, "."]);
+        assert!(said.contains("cannot read .: "), "{said}");
+    }
+    assert_eq!(folder.names(), [""; 0]);
+}
+
+/// The line of a report that shows the scene, without its margin, and the line of carets below it.
+fn shown(report: &str, line: u32) -> (String, String) {
+    let margin = format!("{line} | ");
+    let mut lines = report.lines().skip_while(|l| !l.starts_with(&margin));
+    let source = lines.next().unwrap_or_default()[margin.len()..].to_owned();
+    let carets = lines.next().unwrap_or_default();
+    (source, carets.chars().skip(margin.len()).collect())
+}
+
+#[test]
+fn scene_errors_show_the_place() {
+    let folder = Folder::new();
+    let sphere = SMALL_SCENE.lines().last().unwrap();
+    for (text, place, source, carets, message) in [
+        // A word that is no number.
+        (
+            SMALL_SCENE.replace("0 0 3", "0 0 three"),
+            (8, 8),
+            &*sphere.replace("0 0 3", "0 0 three"),
+            "       ^^^^^",
+            "found `three`",
+        ),
+        // A value that is not allowed.
+        (
+            SMALL_SCENE.replace("0.1\n", "-0.1 # dim\n"),
+            (5, 1),
+            "-0.1 # dim",
+            "^^^^",
+            "expected the ambient intensity: a number of at least 0; found `-0.1`",
+        ),
+        // A line that is too short: behind its last number.
+        (
+            SMALL_SCENE.replacen("0 0 0\n", "0 0 # x y\n", 1),
+            (2, 4),
+            "0 0 # x y",
+            "   ^",
+            "found the end of the line",
+        ),
+        // A line that is too long, and tabs, which are shown as four blanks but count as one column.
+        (
+            SMALL_SCENE.replace("8 6\n", "\t8\t 6\t7\r\n"),
+            (3, 7),
+            "    8     6    7",
+            "               ^",
+            "expected the end of the line; found `7`",
+        ),
+        // Text that is not ASCII.
+        (
+            SMALL_SCENE.replace("8 6\n", "8 größe # ü\n"),
+            (3, 3),
+            "8 größe # ü",
+            "  ^^^^^",
+            "found `größe`",
+        ),
+        // A record that is missing.
+        (
+            SMALL_SCENE.replacen('1', "2", 1) + "\n# end\n",
+            (8, sphere.len() as u32 + 1),
+            sphere,
+            &(" ".repeat(sphere.len()) + "^"),
+            "expected object 2 of the 2 that the first line announces; found the end of the text",
+        ),
+        (String::new(), (1, 1), "", "^", "found the end of the text"),
+    ] {
+        folder.write("bad.txt", &text);
+        let (line, column) = place;
+        for command in ["render", "inspect"] {
+            let said = folder.fail(3, &[command, "bad.txt"]);
+            assert!(said.starts_with("error: "), "{said}");
+            assert!(
+                said.contains(&format!("bad.txt:{line}:{column}\n")),
+                "{said}"
+            );
+            assert!(said.contains(message), "{said}");
+            // A line that is empty has no blank behind its margin.
+            let said = said.replace(" |\n", " | \n");
+            let (shown_source, shown_carets) = shown(&said, line);
+            assert_eq!((&*shown_source, &*shown_carets), (source, carets), "{said}");
+        }
+    }
+    assert_eq!(folder.names(), ["bad.txt"]);
+}
+
+#[test]
+fn text_that_is_no_utf8_does_not_move_the_caret() {
+    let folder = Folder::new();
+    let mut text = b"# \xff\xfe caf\xe9\n".to_vec();
+    text.extend(SMALL_SCENE.replace("8 6", "8 x # \u{fffd}").into_bytes());
+    text.extend(b"# \xff\n");
+    folder.write("bad.txt", text);
+    let said = folder.fail(3, &["render", "bad.txt"]);
+    assert!(said.contains("bad.txt:4:3\n"), "{said}");
+    assert_eq!(shown(&said, 4).1, "  ^", "{said}");
+}
+
+#[test]
+fn control_characters_of_a_scene_do_not_reach_the_terminal() {
+    let folder = Folder::new();
+    let text = SMALL_SCENE.replace("8 6", "8 \u{1b}[2J");
+    let said = folder
+        .run_with_input(&["render", "-"], text.as_bytes())
+        .stderr;
+    assert!(said.contains("<stdin>:3:3"), "{said}");
+    assert!(!said.contains('\u{1b}'), "{said:?}");
+}
+
+#[test]
+fn the_light_of_8_numbers_is_worth_a_warning() {
+    let folder = Folder::new();
+    let path = scene("default");
+    let run = folder.succeed(&["inspect", &path]);
+    let warning = format!("warning: {path}:4: the light has 8 numbers instead of 9");
+    assert!(run.stderr.starts_with(&warning), "{}", run.stderr);
+    folder.write("small.txt", SMALL_SCENE);
+    assert_eq!(folder.succeed(&["inspect", "small.txt"]).stderr, "");
+}
+
+#[test]
+fn a_bad_scene_does_not_keep_the_others_from_being_drawn() {
+    let folder = Folder::new();
+    folder.write("a.txt", SMALL_SCENE);
+    folder.write("b.txt", "oh");
+    folder.write("c.txt", SMALL_SCENE);
+    let said = folder.fail(3, &["render", "a.txt", "b.txt", "missing.txt", "c.txt"]);
+    assert!(said.contains("b.txt:1:1") && said.contains("cannot read missing.txt"));
+    assert_eq!(
+        folder.names(),
+        ["a.ppm", "a.txt", "b.txt", "c.ppm", "c.txt"]
+    );
+}
+
+#[test]
+fn help_has_examples() {
+    let folder = Folder::new();
+    for arguments in [&["--help"][..], &["render", "--help"], &["help", "inspect"]] {
+        let help = String::from_utf8(folder.succeed(arguments).stdout).unwrap();
+        assert!(help.contains("Examples:\n  scanray"), "{help}");
+    }
+}

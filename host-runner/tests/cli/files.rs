@@ -1,0 +1,156 @@
+//! Files appear whole or not at all.
+
+use std::process::Stdio;
+
+use crate::program::{Folder, SMALL_SCENE};
+
+/// The small scene becomes this many bytes.
+const SMALL_BYTES: usize = 11 + 3 * 8 * 6;
+
+#[test]
+fn a_run_that_fails_leaves_the_older_picture() {
+    let folder = Folder::new();
+    folder.write("output.ppm", "older");
+    folder.write("bad.txt", SMALL_SCENE.replace("0.1", "nan"));
+    folder.fail(3, &["render", "bad.txt"]);
+    folder.fail(2, &["render", "--rows", "0..9999"]);
+    assert_eq!(folder.read("output.ppm"), b"older");
+    assert_eq!(folder.names(), ["bad.txt", "output.ppm"]);
+    folder.write("small.txt", SMALL_SCENE);
+    folder.succeed(&["render", "small.txt"]);
+    assert_eq!(folder.read("output.ppm").len(), SMALL_BYTES);
+}
+
+#[test]
+fn places_that_cannot_be_written_are_named_before_anything_is_drawn() {
+    let folder = Folder::new();
+    folder.write("file", "");
+    folder.write("old.ppm", "older");
+    std::fs::create_dir(folder.path("output.ppm")).unwrap();
+    let mut permissions = folder.path("old.ppm").metadata().unwrap().permissions();
+    permissions.set_readonly(true);
+    std::fs::set_permissions(folder.path("old.ppm"), permissions).unwrap();
+    for (output, words) in [
+        (
+            &["-o", "nowhere/a.ppm"][..],
+            "cannot write nowhere/a.ppm: there is no folder nowhere",
+        ),
+        (&["-o", "file/a.png"], "cannot write file/a.png: "),
+        (
+            &["-o", "old.ppm"],
+            "cannot write old.ppm: it is there already and is read-only",
+        ),
+        (&[], "cannot write output.ppm: it is a folder"),
+    ] {
+        // So large that drawing it would take hours.
+        let said = folder.fail(4, &[&["render", "--size", "65535x65535"], output].concat());
+        assert!(said.contains(words), "{said}");
+    }
+    assert_eq!(folder.read("old.ppm"), b"older");
+    assert_eq!(folder.names(), ["file", "old.ppm", "output.ppm"]);
+}
+
+#[test]
+fn a_reader_that_leaves_is_no_error() {
+    let folder = Folder::new();
+    for arguments in [
+        &["render", "-o", "-", "--size", "300x200"][..],
+        &["inspect"],
+        &["render", "--json", "--size", "4x3"],
+        &["render", "--verbose", "--size", "4x3"],
+    ] {
+        let mut child = folder
+            .program(arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}: {said}");
+        assert!(
+            !said.contains("panicked") && !said.contains("error"),
+            "{said}"
+        );
+    }
+}
+
+#[cfg(target_os = "linux")]
+mod linux {
+    use std::fs::{File, OpenOptions};
+    use std::process::{Command, Stdio};
+    use std::thread::sleep;
+    use std::time::Duration;
+
+    use crate::program::{Folder, SMALL_SCENE};
+
+    #[test]
+    fn a_full_disk_is_an_error() {
+        let folder = Folder::new();
+        let full = || OpenOptions::new().write(true).open("/dev/full").unwrap();
+        for arguments in [
+            &["render", "-o", "-"][..],
+            &["inspect"],
+            &["render", "--json", "--size", "4x3"],
+        ] {
+            let program = folder.program(arguments).stdout(full()).output().unwrap();
+            let said = String::from_utf8(program.stderr).unwrap();
+            assert_eq!(program.status.code(), Some(4), "{said}");
+            assert!(said.contains("cannot write to standard output: "), "{said}");
+        }
+        let said = folder.fail(4, &["render", "-o", "/dev/full", "--size", "4x3"]);
+        assert!(said.contains("cannot write /dev/full: "), "{said}");
+    }
+
+    #[test]
+    fn devices_and_pipes_are_written_as_they_are() {
+        let folder = Folder::new();
+        folder.write("small.txt", SMALL_SCENE);
+        folder.succeed(&["render", "small.txt", "-o", "/dev/null"]);
+        assert!(!std::path::Path::new("/dev/null").is_file());
+        let run = folder.succeed(&["render", "small.txt", "-o", "/dev/stdout"]);
+        assert_eq!(run.stdout.len(), super::SMALL_BYTES);
+    }
+
+    #[test]
+    fn a_closed_standard_error_is_no_reason_to_stop() {
+        let folder = Folder::new();
+        let mut child = folder
+            .program(&["render", "--size", "4x3"])
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stderr.take());
+        assert_eq!(child.wait().unwrap().code(), Some(0));
+        assert_eq!(folder.names(), ["output.ppm"]);
+    }
+
+    #[test]
+    fn an_interrupted_run_leaves_the_older_picture_alone() {
+        let folder = Folder::new();
+        folder.write("output.ppm", "older");
+        let errors = File::create(folder.path("errors")).unwrap();
+        let mut child = folder
+            // The whole picture would take minutes.
+            .program(&[
+                "render",
+                "--size",
+                "8000x2000",
+                "--max-depth",
+                "32",
+                "--scalar",
+                "f64",
+            ])
+            .stderr(errors)
+            .spawn()
+            .unwrap();
+        sleep(Duration::from_millis(300));
+        let process = child.id().to_string();
+        let kill = Command::new("kill").args(["-INT", &process]).status();
+        assert!(kill.unwrap().success());
+        assert!(!child.wait().unwrap().success());
+        assert_eq!(folder.read("output.ppm"), b"older");
+        assert_eq!(folder.names(), ["errors", "output.ppm"]);
+    }
+}

@@ -1,0 +1,7 @@
+//! The program as its users meet it: each test runs it in a folder of its own.
+
+mod errors;
+mod files;
+mod inspect;
+mod program;
+mod render;
