@@ -5,7 +5,7 @@ mod error;
 mod lexeme;
 mod numeric;
 
-pub use decimal::FromDecimal;
+pub use decimal::{DecimalError, FromDecimal};
 pub use error::{Excerpt, Expected, Found, ParseError, Range};
 
 use crate::scalar::Scalar;
