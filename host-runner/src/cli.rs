@@ -14,10 +14,10 @@ use crate::commands::render::RenderArgs;
     name = "scanray",
     version,
     after_help = "\
-Without a command, the built-in scene is drawn into output.ppm.
+Without a command, the default scene is drawn into output.ppm.
 
 Examples:
-  scanray                                  draw the built-in scene
+  scanray                                  draw the default scene
   scanray render scene.txt -o scene.png    draw a scene into a PNG file
   scanray render scene.txt -o tft.png --size 160x128 --color rgb565 --dither
                                            see it as a small colour display shows it

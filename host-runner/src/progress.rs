@@ -23,7 +23,7 @@ impl Progress {
         let bar = ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::hidden())
             .with_message(what);
         if let Ok(style) =
-            ProgressStyle::with_template("{msg} [{bar:40}] {percent:>3} %, {eta} left")
+            ProgressStyle::with_template("[{bar:40}] {percent:>3} %, {eta} left  {wide_msg}")
         {
             bar.set_style(style.progress_chars("=> "));
         }

@@ -107,8 +107,7 @@ impl SceneSource {
         })?;
         if let Some(line) = report.short_light_line {
             say(format_args!(
-                "warning: {}:{line}: the light has 8 numbers instead of 9; the last one is used \
-                 twice, for green and blue of the diffuse intensity",
+                "warning: {}:{line}: the light has 8 numbers instead of 9; the last is used twice",
                 self.name()
             ));
         }

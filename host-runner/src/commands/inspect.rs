@@ -20,7 +20,7 @@ Examples:
   scanray inspect scenes/pyramids.txt
   grep -v '^2' scene.txt | scanray inspect -")]
 pub(crate) struct InspectArgs {
-    /// Scene file, `-` for standard input [default: the built-in scene]
+    /// Scene file, `-` for standard input; the default scene if there is none
     #[arg(value_name = "SCENE")]
     scene: Option<PathBuf>,
 

@@ -35,7 +35,7 @@ Examples:
   scanray render scene.txt -o - | pnmtojpeg > scene.jpg
   scanray render scene.txt --json | jq .rays          what the picture took")]
 pub(crate) struct RenderArgs {
-    /// Scene files, `-` for standard input [default: the built-in scene]
+    /// Scene files, `-` for standard input; the default scene if there are none
     #[arg(value_name = "SCENE")]
     scenes: Vec<PathBuf>,
 

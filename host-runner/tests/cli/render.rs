@@ -19,7 +19,7 @@ fn alone_draws_the_default_scene_in_any_folder() {
         "Image file output.ppm saved (800x600, 1440015 bytes)."
     );
     assert_eq!(folder.names(), ["output.ppm"]);
-    // The built-in scene is that of the repository.
+    // The default scene is that of the repository.
     folder.succeed(&["render", &scene("default"), "-o", "again.ppm"]);
     assert!(folder.read("again.ppm") == folder.read("output.ppm"));
     // There is a sky above, whose zenith is bluer than its horizon.
