@@ -28,7 +28,14 @@ Exit codes: 0 fine, 1 pictures differ, 2 usage, 3 scene, 4 files."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]
-    pub(crate) command: Option<Command>,
+    command: Option<Command>,
+}
+
+/// What is meant without a command.
+#[derive(Parser, Debug)]
+struct NoCommand {
+    #[command(flatten)]
+    render: RenderArgs,
 }
 
 /// The commands.
@@ -41,9 +48,12 @@ pub(crate) enum Command {
 }
 
 impl Cli {
-    /// The program's command line. Ends the program for `--help` and for what cannot be understood.
-    pub(crate) fn from_arguments() -> Self {
-        Self::try_parse().unwrap_or_else(|error| with_hint(error).exit())
+    /// The command that the program's arguments name. Ends the program for `--help` and for what
+    /// cannot be understood.
+    pub(crate) fn from_arguments() -> Command {
+        let cli = Self::try_parse().unwrap_or_else(|error| with_hint(error).exit());
+        cli.command
+            .unwrap_or_else(|| Command::Render(NoCommand::parse_from([""; 0]).render))
     }
 }
 

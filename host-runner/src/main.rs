@@ -9,6 +9,7 @@ mod failure;
 mod image;
 mod options;
 mod output;
+mod places;
 mod pools;
 mod progress;
 mod render_report;
@@ -21,10 +22,9 @@ use cli::{Cli, Command};
 use commands::{inspect, render};
 
 fn main() -> ExitCode {
-    let result = match Cli::from_arguments().command {
-        None => render::run(&Default::default()),
-        Some(Command::Render(args)) => render::run(&args),
-        Some(Command::Inspect(args)) => inspect::run(&args),
+    let result = match Cli::from_arguments() {
+        Command::Render(args) => render::run(&args),
+        Command::Inspect(args) => inspect::run(&args),
     };
     result.unwrap_or_else(|failure| failure.report())
 }
