@@ -1,0 +1,15 @@
+//! What the integration tests share: scenes, pictures, a recording display, random numbers.
+
+// Every test file compiles this module for itself and uses a part of it.
+#![allow(dead_code)]
+
+pub(crate) mod canvas;
+pub(crate) mod picture;
+pub(crate) mod random;
+pub(crate) mod sampling;
+pub(crate) mod scenes;
+
+/// Whether expected files are to be rewritten instead of compared.
+pub(crate) fn is_blessing() -> bool {
+    std::env::var_os("BLESS").is_some_and(|value| value == "1")
+}
