@@ -69,11 +69,11 @@ fn files_that_cannot_be_read_have_their_own_code() {
 
 /// The line of a report that shows the scene, without its margin, and the line of carets below it.
 fn shown(report: &str, line: u32) -> (String, String) {
-    let margin = format!("{line} | ");
+    let margin = format!("{line} |");
+    let behind_margin = |line: &str| -> String { line.chars().skip(margin.len() + 1).collect() };
     let mut lines = report.lines().skip_while(|l| !l.starts_with(&margin));
-    let source = lines.next().unwrap_or_default()[margin.len()..].to_owned();
-    let carets = lines.next().unwrap_or_default();
-    (source, carets.chars().skip(margin.len()).collect())
+    let mut next = || behind_margin(lines.next().unwrap_or_default());
+    (next(), next())
 }
 
 #[test]
@@ -141,13 +141,57 @@ fn scene_errors_show_the_place() {
                 "{said}"
             );
             assert!(said.contains(message), "{said}");
-            // A line that is empty has no blank behind its margin.
-            let said = said.replace(" |\n", " | \n");
             let (shown_source, shown_carets) = shown(&said, line);
             assert_eq!((&*shown_source, &*shown_carets), (source, carets), "{said}");
         }
     }
     assert_eq!(folder.names(), ["bad.txt"]);
+}
+
+#[test]
+fn every_rejection_is_shown_at_its_place() {
+    let folder = Folder::new();
+    let default = scene("default");
+    let invalid = std::path::Path::new(&default).with_file_name("invalid");
+    let mut count = 0;
+    let mut wrong = Vec::new();
+    for entry in std::fs::read_dir(invalid).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|extension| extension != "txt") {
+            continue;
+        }
+        count += 1;
+        // `line L, column C: MESSAGE`
+        let expected = std::fs::read_to_string(path.with_extension("expected")).unwrap();
+        let (place, message) = expected.trim_end().split_once(": ").unwrap();
+        let place = place.replace("line ", "").replace(", column ", ":");
+        let path = path.to_str().unwrap();
+        let said = folder.fail(3, &["inspect", path]);
+        // Where the caret is: below the place, but tabs are shown as four blanks.
+        let (line, column) = place.split_once(':').unwrap();
+        let (line, column): (u32, usize) = (line.parse().unwrap(), column.parse().unwrap());
+        let (source, carets) = shown(&said, line);
+        let caret = carets.chars().take_while(|c| *c == ' ').count();
+        let caret_is_right = caret == column - 1 + 3 * tabs_before(path, line, column);
+        let is_right = said.starts_with(&format!("error: {message}\n"))
+            && said.contains(&format!("--> {path}:{place}\n"))
+            // A line too long for the terminal is shown in part.
+            && (caret_is_right || source.contains("..."));
+        if !is_right {
+            wrong.push(format!("{expected}{said}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert!(count > 50, "{count}");
+}
+
+/// Tabs before a place in a file.
+fn tabs_before(path: &str, line: u32, column: usize) -> usize {
+    let text = std::fs::read(path).unwrap();
+    let mut lines = text.split(|byte| *byte == b'\n');
+    let line = lines.nth(line as usize - 1).unwrap_or_default();
+    let before = line.iter().take(column - 1);
+    before.filter(|byte| **byte == b'\t').count()
 }
 
 #[test]
