@@ -129,12 +129,25 @@ impl Excerpt {
     }
 }
 
+/// Characters that a reader would not see, or that change the order of others: controls, blanks that are
+/// none to this format, marks of direction and of byte order.
+fn is_invisible(character: char) -> bool {
+    character.is_control()
+        || matches!(
+            character,
+            '\u{a0}' | '\u{ad}' | '\u{61c}' | '\u{1680}' | '\u{3000}' | '\u{feff}'
+                | '\u{2000}'..='\u{200f}'
+                | '\u{2028}'..='\u{202f}'
+                | '\u{205f}'..='\u{206f}'
+        )
+}
+
 impl fmt::Display for Excerpt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("`")?;
         for chunk in self.bytes().utf8_chunks() {
             for character in chunk.valid().chars() {
-                if character.is_control() {
+                if is_invisible(character) {
                     write!(f, "{}", character.escape_default())?;
                 } else {
                     write!(f, "{character}")?;

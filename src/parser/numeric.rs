@@ -447,12 +447,12 @@ impl<'t> Records<'t> {
     }
 }
 
-/// The value of a word of digits, at most `u32::MAX`.
+/// The value of a word of digits; `None` if it is not one or above `u32::MAX`.
 fn digits(word: &[u8]) -> Option<u32> {
     let mut value = 0_u32;
     for byte in word {
         let digit = byte.checked_sub(b'0').filter(|digit| *digit < 10)?;
-        value = value.saturating_mul(10).saturating_add(u32::from(digit));
+        value = value.checked_mul(10)?.checked_add(u32::from(digit))?;
     }
     (!word.is_empty()).then_some(value)
 }

@@ -72,7 +72,7 @@ impl fmt::Display for DepthError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "a maximum depth of {} needs a larger stack than the {} frames compiled in: use with_stack",
+            "a maximum depth of {} needs more than the {} stack frames compiled in (Tracer::with_stack)",
             self.max_depth, self.stack
         )
     }
