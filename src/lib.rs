@@ -70,6 +70,11 @@
 #[cfg(test)]
 extern crate std;
 
+// The README's code is compiled with the documentation's.
+#[cfg(all(doctest, feature = "parser"))]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 // The modules stand in the order of their layers: a file may use those above it, never those below.
 
 // Numbers, vectors, colours.
