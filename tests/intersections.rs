@@ -464,11 +464,13 @@ fn mesh(place: impl Fn(Vec3<f64>) -> Vec3<f64>) -> (Vec<Vec3<f32>>, Vec<[usize; 
     )
 }
 
-/// Rays at the edges and corners of a closed mesh never pass between its triangles, at any scale.
+/// Rays at the edges and corners of a closed mesh never pass between its triangles, at any scale, and
+/// next to an edge they meet one triangle alone. (The edge itself belongs to both, and a ray at its
+/// middle often meets it exactly.)
 #[test]
-fn closed_meshes_have_no_leaks() {
+fn closed_meshes_have_no_leaks_and_no_double_hits() {
     let random = Random::of_test(88);
-    let mut rays = 0;
+    let (mut rays, mut double_hits) = (0, 0);
     for round in 0..200 {
         let scale = random.log_between(1e-4, 1e4);
         let stretch = random.point::<f64>(0.3) + Vec3::splat(1.0);
@@ -501,9 +503,12 @@ fn closed_meshes_have_no_leaks() {
                 .count();
             rays += 1;
             assert!(hits >= 1, "a leak in mesh {round}: {ray:?}, {triangles:#?}");
+            let is_special = [0.0, 0.5, 1.0].contains(&weight);
+            double_hits += usize::from(hits > 1 && !is_special);
         }
     }
-    println!("{rays} rays");
+    println!("{rays} rays, {double_hits} double hits");
+    assert_eq!(double_hits, 0);
 }
 
 /// A ray that leaves a surface on the side it belongs to does not meet the surface again, and one that
