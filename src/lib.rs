@@ -1,6 +1,8 @@
 //! A fixed-function Whitted ray tracer for microcontroller displays: scene in, pixels out, without an
 //! allocator, a frame buffer or a panic.
 //!
+#![doc = include_str!("../docs/default-scene.md")]
+//!
 //! A scene lives in static pools ([`ScenePools`], filled from text or by hand) or in flash (`bake`); a
 //! [`Tracer`] gives each pixel its linear colour, and a [`Picture`] draws them, scanline by scanline, on
 //! any `DrawTarget` of [embedded-graphics](embedded_graphics):
