@@ -1,0 +1,466 @@
+#!/usr/bin/env python3
+"""Builds every program, runs it on its emulated board and checks what test.sh promises. Called by test.sh.
+
+    check.py [--bless] [--keep FOLDER]
+
+Prints a line a check. Figures are compared with the text files of tables/; `--bless` writes them. `--keep` leaves the
+images in a folder. SCANRAY_BUILD_STD=1 builds the core library from source.
+"""
+
+import argparse
+import concurrent.futures
+import glob
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+import elf
+import emulate
+import oled
+import stack_bound
+
+FIRMWARE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+BUILD_STD = os.environ.get("SCANRAY_BUILD_STD") == "1"
+TIMEOUT = 120
+
+# Board -> (target, column in the tables, instructions per tick, profiles that are measured).
+BOARDS = {
+    "mps2-an386": ("thumbv7em-none-eabihf", "M4F", 40, ("size", "release")),
+    "mps2-an385": ("thumbv7m-none-eabi", "M3", 40, ("size",)),
+    "microbit": ("thumbv6m-none-eabi", "M0", 62.5, ("size",)),
+    "virt": ("riscv32imc-unknown-none-elf", "RISC-V", 1, ("size",)),
+    "lm3s6965evb": ("thumbv7m-none-eabi", "OLED", None, ()),
+}
+PIXELS = 160 * 120
+ROW_BYTES = 160 * 4
+
+# What the default scene may be at most on the M4F, in the size profile, and the scene of diffuse spheres.
+LIMITS = {("default", "flash"): 7936, ("default", "stack"): 680, ("default", "ram"): 512 + ROW_BYTES,
+          ("stage-1-diffuse-spheres", "flash"): 2304}
+# Stages that the default scene is also measured without.
+STAGES = ("SHADOWS", "SPECULAR", "REFLECTION", "REFRACTION", "BENDING", "PLANES", "TRIANGLES")
+
+
+class Failed(Exception):
+    """Why a check fails."""
+
+
+class Report:
+    """What was checked. Lines of concurrent checks do not mix."""
+
+    def __init__(self):
+        self.passed, self.failed = 0, 0
+
+    def check(self, name, check):
+        """Runs a check, which returns what to say or raises, and gives its value back; None when it fails."""
+        try:
+            value = check()
+        except (Failed, stack_bound.Unknown, oled.Failed, OSError, subprocess.SubprocessError) as why:
+            self.failed += 1
+            print(f"FAILED  {name}: {why}", flush=True)
+            return None
+        self.passed += 1
+        print(f"ok      {name}" + (f": {value}" if isinstance(value, str) else ""), flush=True)
+        return value
+
+
+def scenes():
+    """Scene name -> file, those of the repository first."""
+    paths = sorted(glob.glob("../scenes/*.txt", root_dir=FIRMWARE)) + sorted(glob.glob("scenes/*.txt", root_dir=FIRMWARE))
+    return {os.path.basename(path).removesuffix(".txt"): path for path in paths}
+
+
+class Builder:
+    """Cargo, one build at a time: what takes long is the emulation."""
+
+    def __init__(self, images):
+        self.images = images
+        self.root = os.environ.get("CARGO_TARGET_DIR", os.path.join(FIRMWARE, "target"))
+        self.lock = threading.Lock()
+
+    def cargo(self, arguments, **variables):
+        """What cargo printed."""
+        environment = os.environ | {"CARGO_TARGET_DIR": self.root, "RUSTC_BOOTSTRAP": "1"} | variables
+        # A variable would replace the flags of .cargo/config.toml.
+        environment.pop("RUSTFLAGS", None)
+        done = subprocess.run(["cargo", arguments[0], "--quiet", "--locked", *arguments[1:]], cwd=FIRMWARE,
+                              env=environment, timeout=900, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        if done.returncode != 0:
+            raise Failed("\n" + done.stdout.strip())
+        return done.stdout
+
+    def image(self, board, program, name, profile="release", proven=True, example=False, **variables):
+        """The path of a program's image."""
+        target = BOARDS[board][0]
+        features = board + (",prove-no-panic" if proven else "")
+        arguments = ["build", "--profile", profile, "--target", target, "--no-default-features", "--features", features,
+                     "--example" if example else "--bin", program,
+                     "--config", f"target.{target}.rustflags=['-Zemit-stack-sizes', '-Clink-arg=-Tstack_sizes.x']"]
+        if BUILD_STD:
+            arguments.append("-Zbuild-std=core")
+        with self.lock:
+            self.cargo(arguments, **variables)
+            built = os.path.join(self.root, target, profile, "examples" if example else "", program)
+            return shutil.copy(built, os.path.join(self.images, f"{board}-{name}"))
+
+    def host(self):
+        version = subprocess.run([os.environ.get("RUSTC", "rustc"), "-vV"], check=True, capture_output=True, text=True)
+        return re.search(r"host: (\S+)", version.stdout)[1]
+
+    def reference(self):
+        """The path of the host's program."""
+        with self.lock:
+            self.cargo(["build", "--release", "--package", "reference", "--target", self.host()])
+        return os.path.join(self.root, self.host(), "release", "reference")
+
+    def unit_tests(self):
+        with self.lock:
+            self.cargo(["test", "--package", "board", "--package", "displays", "--target", self.host()])
+
+    def lint(self, board):
+        """Clippy over everything that compiles for a board."""
+        with self.lock:
+            try:
+                self.cargo(["clippy", "--version"])
+            except Failed:
+                return "skipped, this toolchain has no clippy"
+            self.cargo(["clippy", "--target", BOARDS[board][0], "--no-default-features", "--features", board,
+                        "--package", "scanray-firmware", "--package", "board", "--package", "displays",
+                        "--lib", "--bins", "--examples", "--", "--deny", "warnings"])
+        return None
+
+
+def compiler():
+    """The compiler's name in file names: counts and sizes are its own."""
+    version = subprocess.run([os.environ.get("RUSTC", "rustc"), "--version"], check=True, capture_output=True, text=True)
+    return "rustc-" + version.stdout.split()[1] + ("-build-std" if BUILD_STD else "")
+
+
+def run(image, received=b""):
+    """What the board printed."""
+    code, printed = emulate.run(image, TIMEOUT, received)
+    if code != 0:
+        outcome = f"ran longer than {TIMEOUT} s" if code is None else f"ended with {code}"
+        raise Failed(f"{outcome}; the board printed: {printed.strip() or 'nothing'}")
+    return printed
+
+
+def values(printed):
+    """`key value` lines."""
+    return dict(line.rsplit(maxsplit=1) for line in printed.splitlines() if " " in line)
+
+
+def forbidden(image):
+    """What an f32 image must not contain: double precision on soft-float cores, fused multiplication."""
+    found = [name for name in elf.Image(image).symbols if re.match(r"__aeabi_(d|cd|f2d|i2d|ui2d|l2d|ul2d)", name)
+             or re.match(r"__(add|sub|mul|div|extendsf|truncdf|fix\w*|float\w*)df", name)]
+    if elf.Image(image).is_arm:
+        text = subprocess.run(["arm-none-eabi-objdump", "-d", "--no-show-raw-insn", image],
+                              check=True, capture_output=True, text=True).stdout
+        found += sorted(set(re.findall(r"\tv(?:fma|fms|fnma|fnms|mla|mls|nmla|nmls)\S*", text)))
+        found += sorted(set(re.findall(r"\t(v\S+\.f64)\b", text)))
+    return found
+
+
+class Measured:
+    """An image's figures."""
+
+    def __init__(self, board, image, printed):
+        is_arm = board != "virt"
+        got = values(printed)
+        if not {"crc32", "ticks", "stack"} <= got.keys():
+            raise Failed(f"the board printed: {printed}")
+        binary = elf.Image(image)
+        self.crc = got["crc32"]
+        self.flash, self.ram = binary.flash(), binary.static_ram()
+        self.painted = int(got["stack"], 16)
+        self.bound = stack_bound.bound(image, "Reset")[0] if is_arm else None
+        self.instructions = int(got["ticks"], 16) * BOARDS[board][2] / PIXELS
+        if is_arm and self.painted > self.bound:
+            raise Failed(f"{self.painted} bytes of stack were used, the bound says {self.bound}")
+        if elements := forbidden(image):
+            raise Failed("the image contains " + ", ".join(element.strip() for element in elements))
+
+    def __str__(self):
+        stack = f"{self.bound} B stack ({self.painted} B used)" if self.bound else f"{self.painted} B stack used"
+        return f"{self.instructions:,.0f} instructions a pixel, {self.flash:,} B flash, {self.ram} B RAM, {stack}"
+
+    def cells(self):
+        return [str(self.flash), str(self.ram), str(self.bound or "–"), str(self.painted), f"{self.instructions:.1f}"]
+
+
+class Board:
+    """The checks of one board that counts."""
+
+    def __init__(self, name, builder, report, expected):
+        self.name, self.builder, self.report, self.expected = name, builder, report, expected
+        self.crcs = {}      # scene -> CRC
+        self.measured = {}  # (row of the cost table, profile) -> Measured
+
+    def check(self):
+        check, column = self.report.check, BOARDS[self.name][1]
+        if self.name != "mps2-an385":  # the same code as on the M4F
+            check(f"{column} clippy", lambda: self.builder.lint(self.name))
+        check(f"{column} counter", self.calibration)
+        check(f"{column} a reachable panic does not link", self.panic_control)
+        check(f"{column} recursion and double precision are found", self.other_controls)
+        for scene, path in scenes().items():
+            for profile in BOARDS[self.name][3]:
+                check(f"{column} {scene} ({profile})", lambda: self.picture(scene, path, scene, profile))
+        if self.name == "mps2-an386":
+            for stage in STAGES:
+                row = f"default without {stage.lower()}"
+                check(f"{column} {row}", lambda: self.picture("default", "../scenes/default.txt", row, "size", stage))
+        check(f"{column} harness alone", self.harness)
+        check(f"{column} default, parsed on the board", self.parsed)
+        check(f"{column} messages for bad scenes", self.rejected)
+
+    def calibration(self):
+        image = self.builder.image(self.name, "calibrate", "calibrate")
+        printed = run(image)
+        if printed != run(image):
+            raise Failed("two runs differ")
+        lines = [int(line.split()[1], 16) for line in printed.splitlines()]
+        for rounds, ticks in zip(lines[::2], lines[1::2]):
+            counted = ticks * BOARDS[self.name][2]
+            # A few instructions to call the loop, and the tick under way at each end.
+            if not 0 <= counted - 2 * rounds < 16 + 2 * BOARDS[self.name][2]:
+                raise Failed(f"{2 * rounds} instructions were counted as {counted:.0f}")
+        return f"{2 * lines[0]:,} and {2 * lines[2]:,} instructions are counted as that"
+
+    def panic_control(self):
+        try:
+            self.builder.image(self.name, "negative_control", "panic")
+        except Failed as why:
+            if "a_panic_is_reachable" in str(why):
+                return
+            raise
+        raise Failed("it links")
+
+    def other_controls(self):
+        image = self.builder.image(self.name, "negative_control", "negative-control", proven=False)
+        if self.name != "virt":
+            try:
+                stack_bound.bound(image, "Reset")
+                raise Failed("recursion has a bound")
+            except stack_bound.Unknown as why:
+                if "recursion" not in str(why):
+                    raise
+        # A compiler without hardware for it calls a function, one with hardware is told by the instruction.
+        found = " ".join(forbidden(image))
+        if not re.search("__aeabi_dmul|__muldf3", found):
+            raise Failed(f"no double precision among: {found}")
+        if self.name == "mps2-an386" and "vfma" not in found:
+            raise Failed(f"no fused multiplication among: {found}")
+
+    def picture(self, scene, path, row, profile, without="NONE"):
+        image = self.builder.image(self.name, "picture", f"{row}-{profile}".replace(" ", "-"), profile,
+                                   SCANRAY_SCENE=path, SCANRAY_WITHOUT=without)
+        measured = Measured(self.name, image, run(image))
+        self.measured[row, profile] = measured
+        if without == "NONE":
+            self.crcs[scene] = measured.crc
+            if measured.crc != self.expected.get(scene):
+                raise Failed(f"CRC-32 {measured.crc}, the host's is {self.expected.get(scene)}")
+        return f"{measured.crc}, {measured}"
+
+    def harness(self):
+        image = self.builder.image(self.name, "harness", "harness", "size")
+        measured = Measured(self.name, image, run(image))
+        self.measured["no scene", "size"] = measured
+        return str(measured)
+
+    def parsed(self):
+        image = self.builder.image(self.name, "parsed", "parsed", "size")
+        printed = run(image)
+        measured = Measured(self.name, image, printed)
+        self.measured["default, parsed", "size"] = measured
+        if measured.crc != self.expected["default"]:
+            raise Failed(f"CRC-32 {measured.crc}, the host's is {self.expected['default']}")
+        place = values(printed)
+        if (place["line"], place["column"]) != ("5", "5"):
+            raise Failed(f"the mistake at line 5, column 5 is reported as {place['line']}, {place['column']}")
+        return f"{measured.crc}, {measured}; a mistake at line 5, column 5"
+
+    def rejected(self):
+        printed = run(self.builder.image(self.name, "rejected", "rejected", "size"))
+        if printed != self.expected["rejected"]:
+            raise Failed(f"the board says\n{printed}the host says\n{self.expected['rejected']}")
+        return f"{len(printed.splitlines())}, as the host's"
+
+
+def example_checks(builder, report, expected):
+    """The examples that can run, on the board they are for. Each draws the default scene."""
+    with open(os.path.join(FIRMWARE, "../scenes/default.txt"), "rb") as file:
+        text = file.read()
+
+    def crc(printed):
+        if values(printed).get("crc32") != expected["default"]:
+            raise Failed(f"the host's CRC-32 is {expected['default']}; the board printed: {printed}")
+
+    def image(board, example):
+        return builder.image(board, example, f"example-{example}", example=True, proven=False)
+
+    def watchdog():
+        printed = run(image("mps2-an386", "watchdog"))
+        crc(printed)
+        if not printed.endswith("starving the watchdog\n"):
+            raise Failed(f"the board printed: {printed}")
+        return "fed while drawing, it resets the board afterwards"
+
+    def double_row():
+        printed = run(image("mps2-an386", "double_row"))
+        crc(printed)
+        in_time = int(values(printed)["rows sent in time"])
+        if in_time < 30:
+            raise Failed(f"{in_time} rows of 120 were sent while the next was traced")
+        return f"{in_time} rows of 120 are sent before the next is traced"
+
+    def async_rows():
+        printed = run(image("mps2-an386", "async_rows"))
+        crc(printed)
+        turns = int(values(printed)["turns"])
+        if turns < 119:
+            raise Failed(f"the other task had {turns} turns between 120 rows")
+        return f"another task has {turns} turns between 120 rows"
+
+    def serial_scene():
+        board = image("mps2-an386", "serial_scene")
+        crc(run(board, text + b"\x04"))
+        code, printed = emulate.run(board, TIMEOUT, text.replace(b"600", b"tall", 1) + b"\x04")
+        if code in (0, None) or not printed.startswith("line 3, column 5:"):
+            raise Failed(f"ended with {code}; the board printed: {printed}")
+        return f"a good scene, and a bad one: {printed.splitlines()[0]}"
+
+    def two_harts():
+        crc(run(image("virt", "two_harts")))
+        return "even and odd rows, the same bits"
+
+    for example in (watchdog, double_row, async_rows, serial_scene, two_harts):
+        report.check(f"example {example.__name__}", example)
+
+
+def oled_check(builder, reference, scene, path, png):
+    image = builder.image("lm3s6965evb", "oled", f"oled-{scene}", example=True, SCANRAY_SCENE=path)
+    panel = oled.levels(oled.screen_shot(image, TIMEOUT))
+    wanted = oled.read_pgm(subprocess.run([reference, "oled", path], cwd=FIRMWARE, check=True, capture_output=True,
+                                          text=True).stdout)
+    different = sum(a != b for a, b in zip(panel, wanted))
+    if different:
+        raise Failed(f"{different} of {len(wanted)} pixels differ from the host's picture")
+    if png:
+        with open(png, "wb") as file:
+            file.write(oled.png(panel))
+    return f"all {len(panel)} pixels as the host's, {len(set(panel))} greys"
+
+
+def table(header, rows):
+    """A text table, its columns aligned; the first column is text."""
+    cells = [header, *rows]
+    widths = [max(len(row[i]) for row in cells) for i in range(len(header))]
+    lines = ["  ".join(cell.ljust(width) if i == 0 else cell.rjust(width)
+                       for i, (cell, width) in enumerate(zip(row, widths))).rstrip() for row in cells]
+    return "\n".join(lines) + "\n"
+
+
+def compare(name, text, bless):
+    """Compares with a table that is checked in, or writes it."""
+    path = os.path.join(FIRMWARE, "tables", name)
+    if bless:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return "written"
+    try:
+        with open(path, encoding="utf-8") as file:
+            known = file.read()
+    except FileNotFoundError:
+        if name.startswith("cost-"):
+            return f"none yet for this compiler ({name}); --bless writes it"
+        raise
+    if known != text:
+        old, new = known.splitlines(), text.splitlines()
+        lines = [f"  - {line}" for line in old if line not in new] + [f"  + {line}" for line in new if line not in old]
+        raise Failed(f"differs from tables/{name} (--bless accepts it):\n" + "\n".join(lines))
+    return "as checked in"
+
+
+def limit_check(board, row, figure):
+    measured = board.measured.get((row, "size"))
+    if measured is None:
+        raise Failed("was not measured")
+    got = {"flash": measured.flash, "stack": measured.bound, "ram": measured.ram}[figure]
+    if got > LIMITS[row, figure]:
+        raise Failed(f"{got} bytes, {LIMITS[row, figure]} are allowed")
+    return f"{got} bytes of {LIMITS[row, figure]}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--bless", action="store_true", help="write the tables")
+    parser.add_argument("--keep", metavar="FOLDER", help="leave the images there")
+    arguments = parser.parse_args()
+    start, report = time.monotonic(), Report()
+    images = arguments.keep or tempfile.mkdtemp()
+    os.makedirs(images, exist_ok=True)
+    try:
+        check_all(Builder(images), report, arguments.bless)
+    finally:
+        if not arguments.keep:
+            shutil.rmtree(images)
+    print(f"firmware checks took {time.monotonic() - start:.0f} s with {compiler()}")
+    print(f"{report.passed} passed, {report.failed} failed")
+    sys.exit(report.failed != 0)
+
+
+def check_all(builder, report, bless):
+    # The host first: everything else is compared with it.
+    reference = report.check("host reference", builder.reference)
+    if reference is None:
+        return
+
+    def host(*words):
+        return subprocess.run([reference, *words], cwd=FIRMWARE, check=True, capture_output=True, text=True).stdout
+
+    report.check("host tests of the drivers", builder.unit_tests)
+    expected = dict(zip(scenes(), host("hash", *scenes().values()).split()))
+    expected["rejected"] = host("rejected")
+
+    boards = [Board(name, builder, report, expected) for name, (_, _, rate, _) in BOARDS.items() if rate]
+    with concurrent.futures.ThreadPoolExecutor(max_workers=2) as workers:
+        # The slowest boards first.
+        work = [workers.submit(board.check) for board in reversed(boards)]
+        work.append(workers.submit(oled_checks, builder, report, reference, bless))
+        work.append(workers.submit(example_checks, builder, report, expected))
+        for done in concurrent.futures.as_completed(work):
+            done.result()
+
+    columns = [BOARDS[board.name][1] for board in boards]
+    pictures = table(["scene", "x86-64", *columns],
+                     [[scene, expected[scene], *(board.crcs.get(scene, "–") for board in boards)] for scene in scenes()])
+    print(pictures, end="")
+    report.check("pictures", lambda: compare("pictures.txt", pictures, bless))
+
+    rows = [[row, profile, BOARDS[board.name][1], *board.measured[row, profile].cells()]
+            for board in boards for row, profile in board.measured]
+    rows.sort(key=lambda row: (row[1], columns.index(row[2])))
+    cost = table(["scene", "profile", "board", "flash", "RAM", "stack bound", "stack used", "instructions/pixel"], rows)
+    print(cost, end="")
+    report.check("costs", lambda: compare(f"cost-{compiler()}.txt", cost, bless))
+    for row, figure in LIMITS:
+        report.check(f"M4F {row} {figure}", lambda: limit_check(boards[0], row, figure))
+
+
+def oled_checks(builder, report, reference, bless):
+    report.check("OLED clippy", lambda: builder.lint("lm3s6965evb"))
+    for scene, path in scenes().items():
+        png = os.path.join(FIRMWARE, "tables", "oled.png") if bless and scene == "default" else None
+        report.check(f"OLED {scene}", lambda: oled_check(builder, reference, scene, path, png))
+
+
+if __name__ == "__main__":
+    main()
