@@ -142,10 +142,21 @@ fn grey_levels_are_those_of_luma() {
 
 #[test]
 fn one_bit_is_on_from_one_half() {
-    // Pure channels, so that the threshold is a single product: green is on above ½/0.587.
-    let on = |g: f64| shown::<Exact<BinaryColor>, f64>(Color::new(0.0, g, 0.0), 0, 0).is_on();
-    assert!(on(0.5 / 0.587 + 1e-12));
-    assert!(!on(0.5 / 0.587 - 1e-12));
+    let is_on = |color| shown::<Exact<BinaryColor>, f64>(color, 0, 0).is_on();
+    let green = |g: f64| Color::new(0.0, g, 0.0);
+    assert!(is_on(green(0.5 / 0.587 + 1e-12)));
+    assert!(!is_on(green(0.5 / 0.587 - 1e-12)));
+    // Colours whose luma is one half to the bit.
+    let mut halves = 0;
+    for step in 0..1_000 {
+        let r = f64::from(step) / 1_000.0;
+        let color = Color::new(r, (0.5 - 0.114 * r - 0.299 * r) / 0.587, r);
+        if color.luma() == 0.5 {
+            halves += 1;
+            assert!(is_on(color), "{color:?}");
+        }
+    }
+    assert!(halves > 100, "{halves}");
 }
 
 #[test]

@@ -282,25 +282,28 @@ fn an_object_that_shows_nothing_changes_no_settled_pixel() {
 /// An object of index exactly 1 casts no shadow and bends no ray.
 #[test]
 fn index_one_passes_straight_through_to_the_bit() {
-    let ray = Ray::new(
-        Vec3::new(0.013_f32, -0.21, -1.7),
-        Vec3::new(0.37, 0.11, 0.92).normalize(),
-    );
+    let random = Random::of_test(43);
     for (name, part) in invisible_parts::<f32>() {
         let mut model = shallow_scene::<f32>();
         model.parts = vec![part];
         model.background.sky = true;
         let pools = model.build();
         let tracer = Tracer::new(pools.as_scene());
-        assert!(tracer.nearest(&ray).is_some(), "{name} is not in the way");
-        assert!(!tracer.occluded(&ray, f32::MAX), "{name} casts a shadow");
-        // The sky depends on the direction alone, so that any bend would change its bits.
         let empty = Model {
             parts: Vec::new(),
             ..model
         }
         .build();
-        let straight = Tracer::new(empty.as_scene()).radiance(ray);
-        assert_eq!(bits(tracer.radiance(ray)), bits(straight), "{name}");
+        let nothing = Tracer::new(empty.as_scene());
+        let mut crossed = 0;
+        for _ in 0..20_000 {
+            let ray = Ray::new(random.point(3.0), random.direction());
+            crossed += usize::from(tracer.nearest(&ray).is_some());
+            assert!(!tracer.occluded(&ray, f32::MAX), "{name} casts a shadow");
+            // The sky depends on the direction alone, so that any bend would change its bits.
+            let (actual, straight) = (tracer.radiance(ray), nothing.radiance(ray));
+            assert_eq!(bits(actual), bits(straight), "{name}: {ray:?}");
+        }
+        assert!(crossed > 500, "{name} is in the way of {crossed} rays");
     }
 }

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::scenes;
+use common::scenes::{self, RoomyPools};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use scanray::{
@@ -268,7 +268,7 @@ fn assert_same_bits(actual: Vec3, expected: Vec3) {
     );
 }
 
-fn assert_stored(scene: &SceneNumbers, pools: &ScenePools) {
+fn assert_stored(scene: &SceneNumbers, pools: &RoomyPools<f32>) {
     let stored = pools.as_scene();
     assert_same_bits(stored.camera.position, vector(scene.camera));
     let (width, height) = scene.size;
@@ -350,7 +350,7 @@ proptest! {
         choices in prop::collection::vec(any::<u8>(), 1..200),
     ) {
         let text = write(&scene, &choices);
-        let mut pools = ScenePools::new();
+        let mut pools = RoomyPools::new();
         match pools.parse(text.as_bytes()) {
             Ok(report) => prop_assert_eq!(report, Report::default()),
             Err(error) => prop_assert!(false, "{}\n{}", error, text),
@@ -380,7 +380,7 @@ proptest! {
             .enumerate()
             .map(|(i, line)| if i == number { without_ninth_word(line) } else { line.to_owned() })
             .collect();
-        let mut pools = ScenePools::new();
+        let mut pools = RoomyPools::new();
         let report = pools.parse(shorter.join("\n").as_bytes()).unwrap();
         prop_assert_eq!(report.short_light_line, Some(number as u32 + 1));
         assert_stored(&scene, &pools);

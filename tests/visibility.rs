@@ -5,7 +5,7 @@
 mod common;
 
 use common::random::Random;
-use common::sampling::bits;
+use common::sampling::{self, bits};
 use common::scenes::{self, Model, Part, RoomyPools, Shape};
 use scanray::{
     Background, Color, Light, MaterialDescription, Resolution, Scalar, ScenePools, Tracer, Vec3,
@@ -269,6 +269,55 @@ fn objects_in_special_places_have_the_same_bits_in_single_precision() {
 #[test]
 fn objects_in_special_places_have_the_same_bits_in_double_precision() {
     objects_in_special_places_have_the_same_bits::<f64>(102, 500);
+}
+
+/// Spheres that a row of pixels touches from above or below, to within a few units of rounding, so that
+/// the exact test of a ray decides and what is known of the row must not.
+#[test]
+fn spheres_that_graze_a_row_have_the_same_bits() {
+    let random = Random::of_test(104);
+    let size = Resolution {
+        width: 24,
+        height: 18,
+    };
+    let mut hits = 0;
+    for round in 0..30_000 {
+        let scale = random.log_between(1e-2, 1e2);
+        let (column, row) = (random.below(24) as u16, random.below(18) as u16);
+        let mut model = random_model::<f32>(&random);
+        model.parts.clear();
+        model.camera = random.point(scale * random.log_between(1e-2, 10.0));
+        let ray = sampling::ray_beside(model.camera, size, (column, row), (0.0, 0.0));
+        // Perpendicular to all rays of the row.
+        let height = (17.0 - 2.0 * f64::from(row)) / 18.0;
+        let across = Vec3::new(0.0, 1.0, -height).normalize() * random.sign();
+        let radius = scale * random.log_between(1e-3, 1.0);
+        let wide = |v: Vec3<f32>| Vec3::new(f64::from(v.x), f64::from(v.y), f64::from(v.z));
+        let touch = wide(ray.at((scale * random.between(0.5, 2.0)) as f32));
+        let center = touch + across * radius;
+        let little = 1.0 + f64::from(f32::EPSILON) * random.between(-8.0, 8.0);
+        model.parts.push(Part {
+            shape: Shape::Sphere {
+                center: Vec3::new(center.x as f32, center.y as f32, center.z as f32),
+                radius: (radius * little) as f32,
+            },
+            material: MaterialDescription {
+                ambient: Color::new(0.3, 0.6, 0.9),
+                ..Default::default()
+            },
+        });
+        let pools = model.build();
+        let tracer = Tracer::new(pools.as_scene()).with_resolution(size);
+        let ray = tracer.primary_ray(&tracer.scanline(row), column);
+        hits += usize::from(tracer.nearest(&ray).is_some());
+        assert_eq!(
+            bits(tracer.pixel(column, row)),
+            bits(tracer.radiance(ray)),
+            "scene {round}: pixel ({column}, {row}), {model:#?}"
+        );
+    }
+    println!("{hits} of 30000 spheres hit");
+    assert!((3_000..27_000).contains(&hits));
 }
 
 /// What is known of visibility does not outlive the scene it was found for.
