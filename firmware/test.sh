@@ -12,7 +12,7 @@ cd "$(dirname "$0")"
 
 targets=(thumbv7em-none-eabihf thumbv7m-none-eabi thumbv6m-none-eabi riscv32imc-unknown-none-elf)
 
-# Installs the Debian packages of commands that are missing: `need COMMAND PACKAGE…`.
+# Installs the Debian packages of a command that is missing: `need COMMAND PACKAGE…`.
 need() {
     local command=$1
     shift
@@ -29,7 +29,7 @@ need() {
     DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends "$@" >/dev/null
 }
 
-# Installed targets of the toolchain in use, or those that can be had.
+# Adds the targets that the toolchain in use has not got yet.
 rustup_provides_targets() {
     command -v rustup >/dev/null || return 1
     local missing=()
@@ -42,7 +42,7 @@ rustup_provides_targets() {
 use_debian_toolchain() {
     need ld.lld lld
     # Another rustc may come first in PATH.
-    [ -x /usr/bin/rustc ] && [ -d /usr/lib/rustlib/src/rust/library ] || need "rustc of Debian" rustc-web rust-web-src
+    [ -x /usr/bin/rustc ] && [ -d /usr/lib/rustlib/src/rust/library ] || need "Debian's rustc" rustc-web rust-web-src
     need cargo cargo-web
     export RUSTC=/usr/bin/rustc SCANRAY_BUILD_STD=1
     for target in "${targets[@]}"; do
@@ -52,6 +52,8 @@ use_debian_toolchain() {
 }
 
 need python3 python3
+# Cargo fetches over TLS.
+[ -n "${SSL_CERT_FILE:-}" ] || [ -e /etc/ssl/certs/ca-certificates.crt ] || need "certificates" ca-certificates
 need qemu-system-arm qemu-system-arm
 need qemu-system-riscv32 qemu-system-misc
 need arm-none-eabi-objdump binutils-arm-none-eabi
