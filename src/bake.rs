@@ -3,7 +3,7 @@
 use core::fmt;
 
 use crate::color::Color;
-use crate::material::{Interface, Material};
+use crate::material::Material;
 use crate::scalar::Scalar;
 use crate::scene::{ObjectSet, Reach, Scene};
 use crate::shape::{Plane, Sphere, Surface, Triangle};
@@ -198,21 +198,9 @@ impl<T: Scalar> fmt::Display for Baked<'_, Material<T>> {
             Number(d.shininess),
             Number(d.refraction),
             Number(d.index_of_refraction),
-            Baked(&material.entering()),
-            Baked(&material.leaving()),
+            Number(material.inverse_index()),
+            Number(material.bend()),
             material.whole_shininess()
-        )
-    }
-}
-
-impl<T: Scalar> fmt::Display for Baked<'_, Interface<T>> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Interface { eta, bend } = *self.0;
-        write!(
-            f,
-            "::scanray::Interface {{ eta: {}, bend: {} }}",
-            Number(eta),
-            Number(bend)
         )
     }
 }

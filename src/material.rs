@@ -25,13 +25,14 @@ pub struct MaterialDescription<T = f32> {
 
 /// A material with the values that rendering derives from its description.
 ///
-/// Invariants: `whole_shininess` is the shininess if that is a whole number that repeated squaring may
-/// raise, else [`Material::FRACTIONAL`]; `entering` and `leaving` follow from the index.
+/// Invariants: `inverse_index` is `1/n` and `bend` is `n² − 1` of the index of refraction `n` of a material
+/// that refracts; `whole_shininess` is the shininess if that is a whole number that repeated squaring may
+/// raise, else [`Material::FRACTIONAL`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material<T = f32> {
     description: MaterialDescription<T>,
-    entering: Interface<T>,
-    leaving: Interface<T>,
+    inverse_index: T,
+    bend: T,
     whole_shininess: u16,
 }
 
@@ -51,19 +52,11 @@ impl<T: Scalar> Material<T> {
     /// A material; computes what rendering needs.
     pub fn new(description: MaterialDescription<T>) -> Self {
         let index = description.index_of_refraction;
-        // (n − 1)(n + 1) keeps all digits where n² − 1 would cancel.
-        let bend = (index - T::ONE) * (index + T::ONE);
-        let (entering, leaving) = if description.refraction > T::ZERO {
-            let inverse = T::ONE / index;
-            (
-                Interface { eta: inverse, bend },
-                Interface {
-                    eta: index,
-                    bend: -(bend * inverse * inverse),
-                },
-            )
+        let (inverse_index, bend) = if description.refraction > T::ZERO {
+            // (n − 1)(n + 1) keeps all digits where n² − 1 would cancel.
+            (T::ONE / index, (index - T::ONE) * (index + T::ONE))
         } else {
-            Default::default()
+            (T::ZERO, T::ZERO)
         };
         let whole = description.shininess.to_u32();
         let is_whole = whole <= u32::from(T::MAX_SQUARED_EXPONENT)
@@ -73,20 +66,20 @@ impl<T: Scalar> Material<T> {
         } else {
             Self::FRACTIONAL
         };
-        Self::from_parts(description, entering, leaving, whole_shininess)
+        Self::from_parts(description, inverse_index, bend, whole_shininess)
     }
 
     /// A material from values that [`Material::new`] has computed: for baked scenes.
     pub const fn from_parts(
         description: MaterialDescription<T>,
-        entering: Interface<T>,
-        leaving: Interface<T>,
+        inverse_index: T,
+        bend: T,
         whole_shininess: u16,
     ) -> Self {
         Self {
             description,
-            entering,
-            leaving,
+            inverse_index,
+            bend,
             whole_shininess,
         }
     }
@@ -97,14 +90,32 @@ impl<T: Scalar> Material<T> {
         &self.description
     }
 
+    /// Inverse of the index of refraction; 0 without refraction.
+    pub const fn inverse_index(&self) -> T {
+        self.inverse_index
+    }
+
+    /// Square of the index of refraction, less 1; 0 without refraction.
+    pub const fn bend(&self) -> T {
+        self.bend
+    }
+
     /// For a ray that meets the side its geometric normal points to.
-    pub const fn entering(&self) -> Interface<T> {
-        self.entering
+    #[inline(always)]
+    pub fn entering(&self) -> Interface<T> {
+        Interface {
+            eta: self.inverse_index,
+            bend: self.bend,
+        }
     }
 
     /// For a ray that comes from behind the surface.
-    pub const fn leaving(&self) -> Interface<T> {
-        self.leaving
+    #[inline(always)]
+    pub fn leaving(&self) -> Interface<T> {
+        Interface {
+            eta: self.description.index_of_refraction,
+            bend: -(self.bend * self.inverse_index * self.inverse_index),
+        }
     }
 
     /// The shininess as a whole exponent, or [`Material::FRACTIONAL`].

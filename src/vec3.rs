@@ -69,9 +69,10 @@ impl<T: Scalar> Vec3<T> {
         self * (T::ONE / self.dot(self).sqrt())
     }
 
-    /// The vector of length 1 and the length it had, whatever the scale; `None` when it has none
-    /// (zero, infinite, NaN). Meant for loading: it divides more than [`Vec3::normalize`].
-    pub fn try_normalize(self) -> Option<(Self, T)> {
+    /// The vector of length 1, whatever the scale, and the length it had as two factors, whose product
+    /// may be too large or too small for the scalar; `None` when it has none (zero, infinite, NaN). Meant
+    /// for loading: it divides more than [`Vec3::normalize`].
+    pub fn try_normalize(self) -> Option<(Self, [T; 2])> {
         let largest = self.abs().max_component();
         if !(largest > T::ZERO && self.is_finite()) {
             return None;
@@ -80,7 +81,7 @@ impl<T: Scalar> Vec3<T> {
         let scaled = Self::new(self.x / largest, self.y / largest, self.z / largest);
         let length = scaled.dot(scaled).sqrt();
         let unit = Self::new(scaled.x / length, scaled.y / length, scaled.z / length);
-        Some((unit, length * largest))
+        Some((unit, [largest, length]))
     }
 
     /// One Newton step of `1/√(x·x)` at 1: full precision for a vector that rounding has moved off
@@ -176,7 +177,7 @@ mod tests {
         for scale in [1e-38_f32, 1e-20, 1.0, 1e20, 1e38] {
             let (unit, length) = Vec3::new(0.0, scale, 0.0).try_normalize().unwrap();
             assert_eq!(unit, Vec3::new(0.0, 1.0, 0.0));
-            assert_eq!(length, scale);
+            assert_eq!(length, [scale, 1.0]);
         }
         assert_eq!(Vec3::new(0.0_f32, 0.0, -0.0).try_normalize(), None);
         assert_eq!(Vec3::new(f32::NAN, 1.0, 0.0).try_normalize(), None);

@@ -94,6 +94,8 @@ pub enum Found {
     Word(Excerpt),
     /// A number that is infinite in the scalar of this name.
     TooLarge(Excerpt, &'static str),
+    /// A number above 0 that is 0 in the scalar of this name.
+    TooSmall(Excerpt, &'static str),
     /// The line ends.
     EndOfLine,
     /// The text ends.
@@ -220,6 +222,7 @@ impl fmt::Display for Found {
         match self {
             Self::Word(word) => word.fmt(f),
             Self::TooLarge(word, scalar) => write!(f, "{word}, which is too large for {scalar}"),
+            Self::TooSmall(word, scalar) => write!(f, "{word}, which is 0 in {scalar}"),
             Self::EndOfLine => f.write_str("the end of the line"),
             Self::EndOfText => f.write_str("the end of the text"),
         }

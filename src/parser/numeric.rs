@@ -158,6 +158,16 @@ fn read_object<T: Scalar + FromDecimal>(
                 "sphere's centre z",
             ])?;
             let radius: Number<'_, T> = records.number("sphere's radius", Range::Radius)?;
+            if radius.value == T::ZERO && has_digit_above_0(radius.word) {
+                return Err(records.error_at(
+                    radius.word,
+                    Expected::Number {
+                        name: "sphere's radius",
+                        range: Range::Radius,
+                    },
+                    Found::TooSmall(Excerpt::new(radius.word), T::NAME),
+                ));
+            }
             if !(radius.value > T::ZERO && (radius.value * radius.value).is_finite()) {
                 return Err(records.unfit("sphere's radius", Range::Radius, radius.word));
             }
@@ -445,6 +455,13 @@ impl<'t> Records<'t> {
             found,
         }
     }
+}
+
+/// Whether a number is written with a digit other than 0 before its exponent.
+fn has_digit_above_0(word: &[u8]) -> bool {
+    word.iter()
+        .take_while(|byte| !matches!(byte, b'e' | b'E'))
+        .any(|byte| matches!(byte, b'1'..=b'9'))
 }
 
 /// The value of a word of digits; `None` if it is not one or above `u32::MAX`.

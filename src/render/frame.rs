@@ -6,6 +6,7 @@ use embedded_graphics::primitives::Rectangle;
 
 use super::color::Quantizer;
 use super::picture::{Picture, PixelSource};
+use crate::color::Color;
 
 /// How much may be drawn before control returns to the caller.
 ///
@@ -83,6 +84,8 @@ pub struct Frame {
     /// The next pixel to trace, relative to the area; `y == height` when all are.
     x: u16,
     y: u16,
+    /// Column of the first pixel of the stretch under way, relative to the area.
+    start: u16,
 }
 
 impl Frame {
@@ -96,6 +99,7 @@ impl Frame {
             height: resolution.height,
             x: 0,
             y: 0,
+            start: 0,
         }
         .rewound()
     }
@@ -111,6 +115,7 @@ impl Frame {
             height: area.size.height as u16,
             x: 0,
             y: 0,
+            start: 0,
         }
         .rewound()
     }
@@ -120,6 +125,7 @@ impl Frame {
     pub fn rewound(self) -> Self {
         Self {
             x: 0,
+            start: 0,
             // Without columns there is nothing to draw in any row.
             y: if self.width == 0 { self.height } else { 0 },
             ..self
@@ -167,18 +173,17 @@ impl Frame {
         buffer: &'b mut [Q::Color],
         budget: &mut Budget,
     ) -> Option<(Rectangle, &'b [Q::Color])> {
-        if self.y >= self.height {
+        if self.y >= self.height || buffer.is_empty() {
             return None;
         }
-        let length = buffer.len().min(usize::from(self.width)) as u16;
-        // An empty buffer takes nothing.
-        let start = self.x - self.x.checked_rem(length)?;
-        let end = start.saturating_add(length).min(self.width);
+        let start = self.start;
+        let length = buffer.len().min(usize::from(self.width - start)) as u16;
+        let end = start + length;
         let y = self.top.saturating_add(self.y);
         let scanline = picture.scanline(y);
         for pixel in buffer
             .iter_mut()
-            .take(usize::from(end - start))
+            .take(usize::from(length))
             .skip(usize::from(self.x - start))
         {
             if budget.is_spent() {
@@ -190,12 +195,13 @@ impl Frame {
             budget.charge(rays);
             self.x += 1;
         }
-        let stretch = self.rectangle(start, self.y, end - start, 1);
-        if self.x >= self.width {
+        let stretch = self.rectangle(start, self.y, length, 1);
+        if end >= self.width {
             self.x = 0;
             self.y += 1;
         }
-        let colors = buffer.get(..usize::from(end - start))?;
+        self.start = self.x;
+        let colors = buffer.get(..usize::from(length))?;
         Some((stretch, colors))
     }
 
@@ -216,14 +222,14 @@ impl Frame {
         budget: Budget,
     ) -> Result<Progress, D::Error> {
         let mut budget = budget;
-        if buffer.is_empty() && self.y < self.height {
-            let place = self.rectangle(self.x, self.y, 1, 1).top_left;
-            let mut pixel = [picture.pixel(place.x as u16, place.y as u16)];
+        if buffer.is_empty() {
+            let mut pixel = [Q::quantize(Color::<P::Scalar>::BLACK, 0, 0)];
             return self.draw(picture, display, &mut pixel, budget);
         }
         while let Some((stretch, colors)) = self.trace(picture, buffer, &mut budget) {
             if let Err(error) = display.fill_contiguous(&stretch, colors.iter().copied()) {
                 self.x = (stretch.top_left.x - i32::from(self.left)) as u16;
+                self.start = self.x;
                 self.y = (stretch.top_left.y - i32::from(self.top)) as u16;
                 return Err(error);
             }

@@ -23,8 +23,8 @@ impl<T: Scalar> Plane<T> {
     ///
     /// [`ShapeError::NormalZero`], [`ShapeError::DistanceTooLarge`].
     pub fn new(normal: Vec3<T>, distance: T, surface: Surface) -> Result<Self, ShapeError> {
-        let (normal, length) = normal.try_normalize().ok_or(ShapeError::NormalZero)?;
-        let height = -(distance / length);
+        let (normal, [largest, length]) = normal.try_normalize().ok_or(ShapeError::NormalZero)?;
+        let height = -(distance / largest / length);
         if !height.is_finite() {
             return Err(ShapeError::DistanceTooLarge);
         }

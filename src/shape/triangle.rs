@@ -47,10 +47,9 @@ impl<T: Scalar> Triangle<T> {
         // the sine of the angle between them.
         let (to_v2, _) = (v2 - v1).try_normalize().ok_or(ShapeError::NoArea)?;
         let (to_v3, _) = (v3 - v1).try_normalize().ok_or(ShapeError::NoArea)?;
-        let (normal, sine) = to_v3
-            .cross(to_v2)
-            .try_normalize()
-            .ok_or(ShapeError::NoArea)?;
+        let across = to_v3.cross(to_v2);
+        let (normal, [largest, length]) = across.try_normalize().ok_or(ShapeError::NoArea)?;
+        let sine = largest * length;
         if !(sine > T::TWO * T::TWO * T::EPSILON) {
             return Err(ShapeError::NoArea);
         }

@@ -17,8 +17,7 @@ pub(crate) fn visible_in_row<T: Scalar>(
         origin: scene.camera.position,
         height: row_height,
         half_width,
-        across: T::ONE / (T::ONE + row_height * row_height).sqrt(),
-        beside: T::ONE / (T::ONE + half_width * half_width).sqrt(),
+        scale_squared: T::ONE + row_height * row_height,
     };
     collect(scene, |object| match (object, Ball::around(object)) {
         (Object::Plane(plane), _) => row.may_show_plane(plane),
@@ -32,20 +31,18 @@ struct Row<T> {
     origin: Vec3<T>,
     height: T,
     half_width: T,
-    /// Scales `y − height·z` to a distance from the plane of the row.
-    across: T,
-    /// Scales `x − half_width·z` to a distance from the plane at its end.
-    beside: T,
+    /// Square of what `y − height·z` exceeds the distance from the plane of the row by.
+    scale_squared: T,
 }
 
 impl<T: Scalar> Row<T> {
     fn may_show_ball(&self, ball: Ball<T>) -> bool {
         let f = ball.center - self.origin;
-        let reach = ball.radius + margin(size(self.origin) + size(ball.center), ball.radius);
-        let across = (f.y - self.height * f.z).abs() * self.across;
-        let beside = (f.x.abs() - self.half_width * f.z) * self.beside;
-        // Not on the row, beyond its ends, or behind the camera.
-        !(across > reach || beside > reach || -f.z > reach)
+        // The tracer's tests begin with the same difference: coordinates add no rounding of their own.
+        let reach = ball.radius + margin(size(f), ball.radius);
+        let across = f.y - self.height * f.z;
+        // Not on the row, or behind the camera.
+        !(across * across > reach * reach * self.scale_squared || -f.z > reach)
     }
 
     /// A plane is met where its slope along the ray has the sign of its height above the camera, which
