@@ -1,0 +1,295 @@
+//! Rays of one depth that wait to be traced, and what becomes of them.
+
+use std::ops::Range;
+
+use fearless_simd::prelude::*;
+
+use super::lanes::{Colors, Indices, LANES, Mask, Numbers, Rays, Vec3s};
+
+/// Rays that a batch holds.
+pub(super) const CAPACITY: usize = 512;
+
+/// A number for each ray. Whole vectors are loaded and stored, so that the last rays need room behind
+/// them.
+type Column<E> = Box<[E; CAPACITY + LANES]>;
+
+/// Nothing is met.
+pub(super) const NOTHING: u32 = u32::MAX >> 1;
+
+/// The side that primary rays leave: `Side::NOWHERE`.
+pub(super) const NOWHERE: u32 = u32::MAX;
+
+fn column<E: Copy + Default + std::fmt::Debug>() -> Column<E> {
+    let column: Box<[E]> = vec![E::default(); CAPACITY + LANES].into();
+    column.try_into().expect("it has this length")
+}
+
+/// A vector for each ray.
+#[derive(Debug)]
+pub(super) struct Columns([Column<f32>; 3]);
+
+impl Columns {
+    fn new() -> Self {
+        Self([column(), column(), column()])
+    }
+
+    #[inline(always)]
+    pub(super) fn load<S: Simd>(&self, simd: S, at: usize) -> Vec3s<S> {
+        let [x, y, z] = &self.0;
+        Vec3s::new(load(simd, x, at), load(simd, y, at), load(simd, z, at))
+    }
+
+    #[inline(always)]
+    pub(super) fn store<S: Simd>(&mut self, at: usize, v: Vec3s<S>) {
+        let [x, y, z] = &mut self.0;
+        store(x, at, v.x);
+        store(y, at, v.y);
+        store(z, at, v.z);
+    }
+
+    #[inline(always)]
+    fn gather<S: Simd>(&self, simd: S, at: &Lanes) -> Vec3s<S> {
+        let [x, y, z] = &self.0;
+        Vec3s::new(at.gather(simd, x), at.gather(simd, y), at.gather(simd, z))
+    }
+
+    pub(super) fn get(&self, at: usize) -> [f32; 3] {
+        self.0.each_ref().map(|column| column[at])
+    }
+}
+
+#[inline(always)]
+pub(super) fn load<S: Simd>(simd: S, column: &Column<f32>, at: usize) -> Numbers<S> {
+    Numbers::from_slice(simd, &column[at..at + LANES])
+}
+
+#[inline(always)]
+pub(super) fn store<S: Simd>(column: &mut Column<f32>, at: usize, numbers: Numbers<S>) {
+    numbers.store_slice(&mut column[at..at + LANES]);
+}
+
+/// Up to eight rays of a batch, anywhere in it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lanes {
+    /// The rays; lanes beyond the last repeat one.
+    rays: [u32; LANES],
+    pub(super) count: usize,
+    /// The rays follow one another, so that vectors can be loaded and stored.
+    is_run: bool,
+}
+
+impl Lanes {
+    #[inline(always)]
+    fn gather<S: Simd>(&self, simd: S, column: &Column<f32>) -> Numbers<S> {
+        if self.is_run {
+            load(simd, column, self.rays[0] as usize)
+        } else {
+            Numbers::simd_from(simd, self.rays.map(|ray| column[ray as usize]))
+        }
+    }
+}
+
+/// The rays that meet one object: a range of [`Batch::order`].
+#[derive(Clone, Debug)]
+pub(super) struct Group {
+    pub(super) object: u32,
+    pub(super) range: Range<usize>,
+}
+
+/// Rays of one depth, column by column.
+#[derive(Debug)]
+pub(super) struct Batch {
+    pub(super) len: usize,
+    pub(super) origin: Columns,
+    pub(super) direction: Columns,
+    /// The side a ray leaves, as `Side::index` of the object's index among all objects.
+    pub(super) leaves: Column<u32>,
+    /// The ray of the batch above whose hit cast the ray.
+    parent: Column<u32>,
+    /// What the ray's colour is multiplied with there.
+    weight: Column<f32>,
+    /// The object it meets, or [`NOTHING`].
+    pub(super) object: Column<u32>,
+    pub(super) t: Column<f32>,
+    pub(super) place: [Column<f32>; 2],
+    pub(super) color: Columns,
+    /// The rays that meet something, object by object.
+    order: Column<u32>,
+    pub(super) groups: Vec<Group>,
+}
+
+impl Batch {
+    pub(super) fn new() -> Self {
+        Self {
+            len: 0,
+            origin: Columns::new(),
+            direction: Columns::new(),
+            leaves: column(),
+            parent: column(),
+            weight: column(),
+            object: column(),
+            t: column(),
+            place: [column(), column()],
+            color: Columns::new(),
+            order: column(),
+            groups: Vec::new(),
+        }
+    }
+
+    /// There may not be room for the rays that eight hits cast.
+    pub(super) fn is_full(&self) -> bool {
+        self.len > CAPACITY - 2 * LANES
+    }
+
+    /// Adds the rays of some lanes, among those of `parents`.
+    #[inline(always)]
+    pub(super) fn push<S: Simd>(
+        &mut self,
+        rays: &Rays<S>,
+        leaves: Indices<S>,
+        weight: f32,
+        parents: &Lanes,
+        lanes: Mask<S>,
+    ) {
+        let lanes = lanes.to_bitmask();
+        let count = lanes.count_ones() as usize;
+        let at = self.len;
+        self.origin.store(at, rays.origin);
+        self.direction.store(at, rays.direction);
+        leaves.store_slice(&mut self.leaves[at..at + LANES]);
+        self.parent[at..at + LANES].copy_from_slice(&parents.rays);
+        self.weight[at..at + LANES].fill(weight);
+        if lanes != (1 << count) - 1 {
+            // Close the gaps.
+            for (to, lane) in (0..LANES).filter(|lane| lanes >> lane & 1 != 0).enumerate() {
+                let (from, to) = (at + lane, at + to);
+                for column in self.origin.0.iter_mut().chain(&mut self.direction.0) {
+                    column[to] = column[from];
+                }
+                self.leaves[to] = self.leaves[from];
+                self.parent[to] = self.parent[from];
+            }
+        }
+        self.len += count;
+    }
+
+    /// Sorts the rays by the object they meet. `counts` holds a 0 for each object, before and after.
+    pub(super) fn group(&mut self, counts: &mut [u32]) {
+        self.groups.clear();
+        let objects = &self.object[..self.len];
+        // Neighbours often meet the same object.
+        for run in objects.chunk_by(|a, b| a == b) {
+            if let Some(count) = counts.get_mut(run[0] as usize) {
+                if *count == 0 {
+                    self.groups.push(Group {
+                        object: run[0],
+                        range: 0..0,
+                    });
+                }
+                *count += run.len() as u32;
+            }
+        }
+        let mut start = 0;
+        for group in &mut self.groups {
+            let count = &mut counts[group.object as usize];
+            group.range = start..start + *count as usize;
+            *count = start as u32;
+            start = group.range.end;
+        }
+        let mut ray = 0;
+        for run in objects.chunk_by(|a, b| a == b) {
+            if let Some(place) = counts.get_mut(run[0] as usize) {
+                let at = *place as usize;
+                for (slot, ray) in self.order[at..at + run.len()].iter_mut().zip(ray..) {
+                    *slot = ray;
+                }
+                *place += run.len() as u32;
+            }
+            ray += run.len() as u32;
+        }
+        for group in &self.groups {
+            counts[group.object as usize] = 0;
+        }
+    }
+
+    /// The next rays of a range of the order.
+    #[inline(always)]
+    pub(super) fn lanes(&self, range: Range<usize>) -> Lanes {
+        let count = range.len().min(LANES);
+        let mut rays = [0; LANES];
+        rays.copy_from_slice(&self.order[range.start..range.start + LANES]);
+        let (first, last) = (rays[0], rays[count - 1]);
+        let is_run = last - first == count as u32 - 1;
+        if count < LANES {
+            rays[count..].fill(last);
+        }
+        Lanes {
+            rays,
+            count,
+            is_run,
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn rays<S: Simd>(&self, simd: S, lanes: &Lanes) -> Rays<S> {
+        Rays {
+            origin: self.origin.gather(simd, lanes),
+            direction: self.direction.gather(simd, lanes),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn distances<S: Simd>(&self, simd: S, lanes: &Lanes) -> Numbers<S> {
+        lanes.gather(simd, &self.t)
+    }
+
+    #[inline(always)]
+    pub(super) fn places<S: Simd>(&self, simd: S, lanes: &Lanes) -> [Numbers<S>; 2] {
+        let [v2, v3] = &self.place;
+        [lanes.gather(simd, v2), lanes.gather(simd, v3)]
+    }
+
+    #[inline(always)]
+    pub(super) fn set_colors<S: Simd>(&mut self, lanes: &Lanes, colors: Colors<S>) {
+        if lanes.is_run && lanes.count == LANES {
+            self.color.store(lanes.rays[0] as usize, colors);
+        } else {
+            for (lane, ray) in lanes.rays[..lanes.count].iter().enumerate() {
+                let color = colors.lane(lane);
+                for (column, channel) in self.color.0.iter_mut().zip([color.x, color.y, color.z]) {
+                    column[*ray as usize] = channel;
+                }
+            }
+        }
+    }
+
+    /// Lets rays meet nothing.
+    pub(super) fn forget(&mut self, lanes: &Lanes) {
+        for ray in &lanes.rays[..lanes.count] {
+            self.object[*ray as usize] = NOTHING;
+        }
+    }
+
+    /// Adds the colours of the rays to those of the hits that cast them, mirror rays first as they were
+    /// cast, and removes them.
+    pub(super) fn add_to(&mut self, above: &mut Self) {
+        for ray in 0..self.len {
+            let parent = self.parent[ray] as usize;
+            for (sum, color) in above.color.0.iter_mut().zip(&self.color.0) {
+                sum[parent] += color[ray] * self.weight[ray];
+            }
+        }
+        self.len = 0;
+    }
+
+    /// Clamps the colours of hits; those of the background stay as they are.
+    #[inline(always)]
+    pub(super) fn clamp<S: Simd>(&mut self, simd: S) {
+        for at in (0..self.len).step_by(LANES) {
+            let color = self.color.load(simd, at);
+            let object = Indices::from_slice(simd, &self.object[at..at + LANES]);
+            let clamped = Vec3s::select(object.simd_eq(NOTHING), color, color.clamp(simd));
+            self.color.store(at, clamped);
+        }
+    }
+}

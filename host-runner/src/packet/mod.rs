@@ -1,0 +1,380 @@
+//! Eight rays at a time: the pictures of `Tracer<f32>`, to the bit, on machines with wide vectors.
+//!
+//! The core follows one ray after the other, depth first. Here all rays of one depth are traced
+//! together, eight in a vector: the primary rays of a stretch of a row, then the rays that their hits
+//! cast, and so on. Hits are sorted by object before they are shaded, so that the lanes of a vector
+//! agree about what to do and stay full; the colours then go back up, in the order in which the core
+//! adds them. Where a batch is full before all rays of a depth are cast, it is traced to its end at
+//! once, which bounds the memory at any depth.
+//!
+//! A lane has the bits of the core, because every operation is the same one in the same order, a lane
+//! does not know of its neighbours, and the rays of a vector leave the same side, so that they are
+//! tested against the core's own candidates. What mirrors which function of the core is named beside
+//! it: a change of one is a change of both.
+
+mod batch;
+mod lanes;
+mod shade;
+mod shapes;
+#[cfg(test)]
+mod tests;
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use fearless_simd::Level;
+use fearless_simd::prelude::*;
+use scanray::shape::{Plane, Sphere, Surface, Triangle};
+use scanray::{
+    Background, Color, Material, Needs, Object, ObjectSet, PixelSource, Reach, Resolution,
+    Scanline, Side, Tracer,
+};
+
+use batch::{Batch, CAPACITY, NOTHING, NOWHERE};
+use lanes::{Colors, Indices, LANES, Mask, Numbers, Rays, Vec3s};
+
+/// Traces eight rays at a time through a scene, which it has made lists of.
+#[derive(Debug)]
+pub(crate) struct PacketTracer<'a, const STACK: usize> {
+    tracer: Tracer<'a, f32, { Needs::ALL.bits() }, STACK>,
+    level: Level,
+    spheres: Vec<Listed<'a, Sphere>>,
+    planes: Vec<Listed<'a, Plane>>,
+    triangles: Vec<Listed<'a, Triangle>>,
+    /// All objects, in the order of their numbers.
+    objects: Vec<Target<'a>>,
+    /// Of threads that do not trace at the moment.
+    idle: Mutex<Vec<Workspace>>,
+}
+
+/// What a thread needs to trace.
+#[derive(Debug)]
+struct Workspace {
+    /// One for each depth.
+    batches: Vec<Batch>,
+    /// A 0 for each object, to count hits.
+    counts: Vec<u32>,
+}
+
+/// An object among those of its shape.
+#[derive(Clone, Copy, Debug)]
+struct Listed<'a, O> {
+    shape: &'a O,
+    /// Its index among all objects.
+    index: u32,
+    casts_shadow: bool,
+}
+
+/// An object with what shading needs to know of it.
+#[derive(Clone, Copy, Debug)]
+struct Target<'a> {
+    object: Object<'a>,
+    material: Option<&'a Material>,
+    /// Of its front and its back.
+    reach: [&'a Reach; 2],
+}
+
+impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
+    /// A tracer of the same pictures.
+    pub(crate) fn new(tracer: Tracer<'a, f32, { Needs::ALL.bits() }, STACK>) -> Self {
+        let scene = *tracer.scene();
+        let material = |surface: Surface| scene.materials.get(surface.material as usize);
+        let reach = |side: Side| scene.sides.get(side.index()).unwrap_or(&Reach::ALL);
+        let mut packets = Self {
+            tracer,
+            level: Level::new(),
+            spheres: Vec::with_capacity(scene.spheres.len()),
+            planes: Vec::with_capacity(scene.planes.len()),
+            triangles: Vec::with_capacity(scene.triangles.len()),
+            objects: Vec::with_capacity(scene.object_count()),
+            idle: Mutex::default(),
+        };
+        for (index, object) in (0..).zip(scene.objects()) {
+            let surface = object.surface();
+            let casts_shadow = material(surface).is_none_or(Material::casts_shadow);
+            macro_rules! list {
+                ($list:ident, $shape:ident) => {
+                    packets.$list.push(Listed {
+                        shape: $shape,
+                        index,
+                        casts_shadow,
+                    })
+                };
+            }
+            match object {
+                Object::Sphere(sphere) => list!(spheres, sphere),
+                Object::Plane(plane) => list!(planes, plane),
+                Object::Triangle(triangle) => list!(triangles, triangle),
+            }
+            packets.objects.push(Target {
+                object,
+                material: material(surface),
+                reach: [true, false].map(|front| reach(Side::new(surface.number, front))),
+            });
+        }
+        packets
+    }
+
+    /// The linear colours of the part of row `y` that starts at column `x`: those of `Tracer::pixel`.
+    pub(crate) fn row(&self, x: u16, y: u16, colors: &mut [Color]) {
+        #[cfg(target_arch = "x86_64")]
+        if let Some(simd) = self.level.as_avx2() {
+            return self.row_on(simd, x, y, colors);
+        }
+        #[cfg(target_arch = "x86_64")]
+        if let Some(simd) = self.level.as_sse4_2() {
+            return self.row_on(simd, x, y, colors);
+        }
+        #[cfg(target_arch = "aarch64")]
+        if let Some(simd) = self.level.as_neon() {
+            return self.row_on(simd, x, y, colors);
+        }
+        // Without wide vectors the core is the fastest, and less to compile.
+        let scanline = self.tracer.scanline(y);
+        for (x, color) in (x..=u16::MAX).zip(colors) {
+            *color = self.tracer.pixel_observed(&scanline, x, &mut ());
+        }
+    }
+
+    /// [`PacketTracer::row`] with vectors.
+    fn row_on<S: Simd>(&self, simd: S, x: u16, y: u16, colors: &mut [Color]) {
+        let mut workspace = self.workspaces().pop().unwrap_or_else(|| Workspace {
+            batches: (0..=self.tracer.max_depth())
+                .map(|_| Batch::new())
+                .collect(),
+            counts: vec![0; self.objects.len()],
+        });
+        let scanline = self.tracer.scanline(y);
+        let starts = (usize::from(x)..).step_by(CAPACITY);
+        for (start, colors) in starts.zip(colors.chunks_mut(CAPACITY)) {
+            simd.vectorize(
+                #[inline(always)]
+                || self.stretch(simd, &mut workspace, start, &scanline, colors),
+            );
+        }
+        self.workspaces().push(workspace);
+    }
+
+    fn workspaces(&self) -> MutexGuard<'_, Vec<Workspace>> {
+        self.idle.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Traces the pixels of a row that start at column `x`, as many as a batch holds.
+    #[inline(always)]
+    fn stretch<S: Simd>(
+        &self,
+        simd: S,
+        Workspace { batches, counts }: &mut Workspace,
+        x: usize,
+        scanline: &Scanline,
+        colors: &mut [Color],
+    ) {
+        let Resolution { width, height } = self.tracer.resolution();
+        let origin = Vec3s::splat(simd, self.tracer.scene().camera.position);
+        let batch = &mut batches[0];
+        for at in (0..colors.len()).step_by(LANES) {
+            // `Camera::ray`.
+            let column = Numbers::from_fn(simd, |lane| {
+                (2 * (x + at + lane) as i32 + 1 - i32::from(width)) as f32
+            });
+            let direction = Vec3s::new(
+                column / f32::from(height),
+                Numbers::splat(simd, scanline.row_height()),
+                Numbers::splat(simd, 1.0),
+            );
+            batch.origin.store(at, origin);
+            batch.direction.store(at, direction.normalize(simd));
+        }
+        batch.leaves[..colors.len()].fill(NOWHERE);
+        batch.len = colors.len();
+        self.trace(simd, batches, counts, scanline.visible());
+        for (at, color) in colors.iter_mut().enumerate() {
+            let [r, g, b] = batches[0].color.get(at);
+            *color = Color::new(r, g, b);
+        }
+    }
+
+    /// Traces a batch of rays to the end and finds their colours. The batches below are empty before
+    /// and after; their number is that of further secondary rays that may follow one another.
+    fn trace<S: Simd>(
+        &self,
+        simd: S,
+        batches: &mut [Batch],
+        counts: &mut [u32],
+        visible: ObjectSet,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let Some((batch, below)) = batches.split_first_mut() else {
+                    return;
+                };
+                let mut at = 0;
+                while at < batch.len {
+                    at += self.meet(simd, batch, at, visible);
+                }
+                batch.group(counts);
+                let groups = std::mem::take(&mut batch.groups);
+                for group in &groups {
+                    for start in group.range.clone().step_by(LANES) {
+                        if let Some(next) = below.first()
+                            && next.is_full()
+                        {
+                            self.trace(simd, below, counts, visible);
+                            below[0].add_to(batch);
+                        }
+                        let lanes = batch.lanes(start..group.range.end);
+                        self.shade(simd, group.object, batch, &lanes, below.first_mut());
+                    }
+                }
+                if let Some(next) = below.first()
+                    && next.len > 0
+                {
+                    self.trace(simd, below, counts, visible);
+                    below[0].add_to(batch);
+                }
+                batch.groups = groups;
+                batch.clamp(simd);
+            },
+        )
+    }
+
+    /// Finds the nearest hits of the next rays of a batch that leave the same side, up to eight, and the
+    /// colours of those without; returns their number. `Tracer::closest` and `Tracer::background`.
+    fn meet<S: Simd>(&self, simd: S, batch: &mut Batch, at: usize, visible: ObjectSet) -> usize {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let rays = Rays {
+                    origin: batch.origin.load(simd, at),
+                    direction: batch.direction.load(simd, at),
+                };
+                let leaves = batch.leaves[at];
+                let candidates = match self.objects.get(leaves as usize >> 1) {
+                    Some(target) => target.reach[leaves as usize & 1].near,
+                    None => visible,
+                };
+                let mut closest = Closest::none(simd);
+                for sphere in members(&self.spheres, candidates.spheres) {
+                    if let Some(t) = shapes::meet_sphere(simd, sphere.shape, &rays) {
+                        closest.offer(simd, t, Mask::splat(simd, true), sphere.index);
+                    }
+                }
+                for plane in members(&self.planes, candidates.planes) {
+                    if plane.index != leaves >> 1 {
+                        let t = shapes::meet_plane(simd, plane.shape, &rays);
+                        closest.offer(simd, t, Mask::splat(simd, true), plane.index);
+                    }
+                }
+                for triangle in members(&self.triangles, candidates.triangles) {
+                    if triangle.index != leaves >> 1
+                        && let Some(meeting) = shapes::meet_triangle(simd, triangle.shape, &rays)
+                    {
+                        let closer = closest.offer(simd, meeting.t, meeting.inside, triangle.index);
+                        for (place, new) in closest.place.iter_mut().zip(meeting.place) {
+                            *place = closer.select(new, *place);
+                        }
+                    }
+                }
+                closest
+                    .object
+                    .store_slice(&mut batch.object[at..at + LANES]);
+                batch::store(&mut batch.t, at, closest.t);
+                for (column, place) in batch.place.iter_mut().zip(closest.place) {
+                    batch::store(column, at, place);
+                }
+                if closest.object.simd_eq(NOTHING).any_true() {
+                    let colors = self.background(simd, rays.direction);
+                    batch.color.store(at, colors);
+                }
+                let sides = &batch.leaves[at..batch.len.min(at + LANES)];
+                sides.iter().take_while(|side| **side == leaves).count()
+            },
+        )
+    }
+
+    /// `Tracer::background`.
+    #[inline(always)]
+    fn background<S: Simd>(&self, simd: S, direction: Vec3s<S>) -> Colors<S> {
+        let Background { color, sky } = self.tracer.scene().background;
+        if sky {
+            let s = (direction.y + 1.0) * 0.5;
+            let white = Numbers::splat(simd, 1.0) - s;
+            Vec3s::new(white + s * 0.5, white + s * 0.7, white + s)
+        } else {
+            splat(simd, color.clamp())
+        }
+    }
+}
+
+/// A colour in every lane.
+#[inline(always)]
+fn splat<S: Simd>(simd: S, color: Color) -> Colors<S> {
+    Vec3s::splat(simd, scanray::Vec3::new(color.r, color.g, color.b))
+}
+
+/// The closest meeting of each ray so far. `Closest` of the core.
+#[derive(Clone, Copy)]
+struct Closest<S: Simd> {
+    t: Numbers<S>,
+    object: Indices<S>,
+    place: [Numbers<S>; 2],
+}
+
+impl<S: Simd> Closest<S> {
+    #[inline(always)]
+    fn none(simd: S) -> Self {
+        Self {
+            t: Numbers::splat(simd, f32::MAX),
+            object: Indices::splat(simd, NOTHING),
+            place: [Numbers::splat(simd, 0.0); 2],
+        }
+    }
+
+    /// Takes the meetings with an object that come first, and tells which. `Closest::yields_to` and the
+    /// range of `intersect`.
+    #[inline(always)]
+    fn offer(&mut self, simd: S, t: Numbers<S>, lanes: Mask<S>, object: u32) -> Mask<S> {
+        let first = Indices::splat(simd, object).simd_lt(self.object);
+        let closer = t.simd_lt(self.t) | (t.simd_eq(self.t) & first);
+        let closer = lanes & t.simd_gt(0.0) & closer;
+        self.t = closer.select(t, self.t);
+        self.object = closer.select(Indices::splat(simd, object), self.object);
+        closer
+    }
+}
+
+/// The members of a set, among the objects of one shape, in their order.
+#[inline(always)]
+fn members<O>(objects: &[O], set: u32) -> impl Iterator<Item = &O> {
+    let (told_apart, always) = objects.split_at(objects.len().min(ObjectSet::BITS));
+    let mut set = set;
+    let chosen = std::iter::from_fn(move || {
+        let index = set.trailing_zeros();
+        set &= set.wrapping_sub(1);
+        told_apart.get(index as usize)
+    });
+    chosen.chain(always)
+}
+
+/// A scanline is a row that is traced already, so that [`Picture`](scanray::Picture) draws packets like
+/// single rays.
+impl<const STACK: usize> PixelSource for PacketTracer<'_, STACK> {
+    type Scalar = f32;
+    type Scanline = Vec<Color>;
+
+    fn resolution(&self) -> Resolution {
+        self.tracer.resolution()
+    }
+
+    fn scanline(&self, y: u16) -> Vec<Color> {
+        let mut row = vec![Color::BLACK; self.tracer.resolution().width.into()];
+        self.row(0, y, &mut row);
+        row
+    }
+
+    /// The rays are not counted: the number is 0.
+    #[inline(always)]
+    fn pixel_on(&self, row: &Vec<Color>, x: u16) -> (Color, u32) {
+        (row[usize::from(x)], 0)
+    }
+}

@@ -1,0 +1,348 @@
+//! Equality with the core, to the bit, at every level of vector instructions that the machine has.
+
+use std::cell::Cell;
+use std::path::PathBuf;
+
+use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
+use fearless_simd::Level;
+use scanray::shape::{Sphere, Surface};
+use scanray::{
+    Background, Camera, Color, Exact, Light, Material, MaterialDescription, Picture, Resolution,
+    Scene, SceneError, ScenePools, Tracer, Vec3,
+};
+
+use super::PacketTracer;
+
+type Pools = ScenePools<f32, 64, 64, 64, 192, 4, 192>;
+
+/// That of the host, so that everything is compiled once.
+const STACK: usize = crate::drawing::MAX_DEPTH;
+
+/// The levels of this machine, the scalar one included where there is one.
+fn levels() -> Vec<Level> {
+    let best = Level::new();
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    let others = [
+        best.as_sse4_2().map(Level::Sse4_2),
+        #[cfg(not(target_feature = "sse4.2"))]
+        Some(Level::Fallback(fearless_simd::Fallback::new())),
+    ];
+    #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+    let others: [Option<Level>; 0] = [];
+    std::iter::once(best)
+        .chain(others.into_iter().flatten())
+        .collect()
+}
+
+/// Compares rows of a picture with the core's pixels.
+fn assert_same(name: &str, scene: Scene<'_>, width: u16, height: u16, max_depth: usize) {
+    let tracer = Tracer::new(scene)
+        .with_stack::<STACK>()
+        .with_resolution(Resolution { width, height })
+        .with_max_depth(max_depth)
+        .unwrap();
+    for level in levels() {
+        let mut packets = PacketTracer::new(tracer);
+        packets.level = level;
+        // The bits of an outdated row must not show.
+        let mut row = vec![Color::new(f32::NAN, 2.0, -1.0); width.into()];
+        for y in 0..height {
+            packets.row(0, y, &mut row);
+            for (x, color) in (0..).zip(&row) {
+                let bits = |c: &Color| [c.r, c.g, c.b].map(f32::to_bits);
+                let expected = tracer.pixel(x, y);
+                assert!(
+                    bits(color) == bits(&expected),
+                    "{name}, {width}x{height}, depth {max_depth}, {level:?}, pixel ({x}, {y}): \
+                     {color:?} instead of {expected:?}"
+                );
+            }
+        }
+    }
+}
+
+const SCENES: [&str; 5] = [
+    "default",
+    "mirror-room",
+    "pyramids",
+    "reflective",
+    "window-room",
+];
+
+fn load(name: &str) -> Box<Pools> {
+    let mut file = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    file.extend(["..", "scenes", &format!("{name}.txt")]);
+    let mut pools = Box::new(Pools::new());
+    pools.parse(&std::fs::read(file).unwrap()).unwrap();
+    pools
+}
+
+#[test]
+fn draws_the_scenes_of_the_repository_to_the_bit() {
+    for name in SCENES {
+        let pools = load(name);
+        for (width, height) in [(1, 1), (7, 5), (8, 1), (1, 9), (161, 97)] {
+            for max_depth in [0, 1, 5] {
+                assert_same(name, pools.as_scene(), width, height, max_depth);
+            }
+        }
+        assert_same(name, pools.as_scene(), 31, 23, 16);
+        // Wider than a batch.
+        assert_same(name, pools.as_scene(), 1201, 3, 5);
+    }
+}
+
+#[test]
+#[ignore = "takes long without optimisation"]
+fn draws_whole_pictures_to_the_bit() {
+    for name in SCENES {
+        let pools = load(name);
+        assert_same(name, pools.as_scene(), 800, 600, 5);
+        assert_same(name, pools.as_scene(), 203, 151, 16);
+    }
+}
+
+#[test]
+fn draws_parts_of_rows() {
+    let pools = load("default");
+    let tracer = Tracer::new(pools.as_scene()).with_stack::<STACK>();
+    let packets = PacketTracer::new(tracer);
+    let mut part = [Color::default(); 13];
+    packets.row(391, 300, &mut part);
+    for (x, color) in (391..).zip(part) {
+        assert_eq!(color, tracer.pixel(x, 300));
+    }
+    packets.row(5, 5, &mut []);
+}
+
+#[test]
+fn draws_a_picture_from_several_threads() {
+    let pools = load("reflective");
+    let tracer = Tracer::new(pools.as_scene())
+        .with_stack::<STACK>()
+        .with_resolution(Resolution {
+            width: 64,
+            height: 40,
+        });
+    let packets = PacketTracer::new(tracer);
+    let rows = |rows: std::ops::Range<u16>| {
+        for y in rows {
+            let mut row = [Rgb888::BLACK; 64];
+            Picture::<_, Exact<Rgb888>>::new(&packets).row(0, y, &mut row);
+            for (x, color) in (0..).zip(row) {
+                assert_eq!(color, Picture::new(&tracer).pixel(x, y));
+            }
+        }
+    };
+    std::thread::scope(|scope| {
+        scope.spawn(|| rows(0..20));
+        rows(20..40);
+    });
+    assert!(packets.workspaces().len() <= 2);
+}
+
+#[test]
+fn draws_random_scenes_to_the_bit() {
+    // Without optimisation, fewer.
+    let scenes = if cfg!(debug_assertions) { 3000 } else { 20_000 };
+    for seed in 0..scenes {
+        let random = Random::new(seed);
+        let mut pools = Box::new(Pools::new());
+        random.fill(&mut pools);
+        if random.one_in(2) {
+            pools.prepare();
+        }
+        let (width, height) = (1 + random.below(19), 1 + random.below(13));
+        let max_depth = random.pick(&[0, 1, 2, 3, 5]);
+        let name = format!("random scene of seed {seed}");
+        assert_same(
+            &name,
+            pools.as_scene(),
+            width as u16,
+            height as u16,
+            max_depth,
+        );
+    }
+}
+
+#[test]
+fn draws_objects_without_material_and_with_any_numbers() {
+    let sphere = |x, material, number| {
+        Sphere::new(Vec3::new(x, 0.0, 3.0), 1.0, Surface { material, number }).unwrap()
+    };
+    let spheres = [
+        sphere(-1.0, 0, 5),
+        sphere(0.0, 7, 70),
+        sphere(1.0, 0, 1_000_000),
+    ];
+    let materials = [Material::new(MaterialDescription {
+        diffuse: Color::new(0.5, 0.6, 0.7),
+        reflection: 0.5,
+        refraction: 0.5,
+        index_of_refraction: 1.5,
+        ..Default::default()
+    })];
+    let light = Light {
+        position: Vec3::new(9.0, 9.0, -9.0),
+        specular: Color::new(1.0, 1.0, 1.0),
+        diffuse: Color::new(1.0, 1.0, 1.0),
+    };
+    let scene = Scene {
+        camera: Camera::default(),
+        resolution: Resolution {
+            width: 0,
+            height: 0,
+        },
+        ambient: 0.5,
+        background: Background {
+            color: Color::new(0.1, 2.0, 0.3),
+            sky: false,
+        },
+        lights: &[light],
+        spheres: &spheres,
+        planes: &[],
+        triangles: &[],
+        materials: &materials,
+        sides: &[],
+    };
+    assert_same("without material", scene, 33, 21, 5);
+}
+
+/// The generator splitmix64, and scenes from it.
+struct Random(Cell<u64>);
+
+impl Random {
+    fn new(seed: u64) -> Self {
+        Self(Cell::new(seed))
+    }
+
+    fn bits(&self) -> u64 {
+        let state = self.0.get().wrapping_add(0x9e37_79b9_7f4a_7c15);
+        self.0.set(state);
+        let z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn below(&self, end: usize) -> usize {
+        (self.bits() % end as u64) as usize
+    }
+
+    fn one_in(&self, n: usize) -> bool {
+        self.below(n) == 0
+    }
+
+    fn pick<T: Copy>(&self, choices: &[T]) -> T {
+        choices[self.below(choices.len())]
+    }
+
+    fn between(&self, low: f32, high: f32) -> f32 {
+        low + (high - low) * (self.bits() >> 40) as f32 / (1_u64 << 24) as f32
+    }
+
+    /// A point with coordinates of up to `extent`; on a coarse grid, vertices, edges and rays
+    /// coincide.
+    fn point(&self, extent: f32, grid: bool) -> Vec3 {
+        let coordinate = || {
+            if grid {
+                (self.below(9) as f32 - 4.0) * 0.25 * extent
+            } else {
+                self.between(-extent, extent)
+            }
+        };
+        Vec3::new(coordinate(), coordinate(), coordinate())
+    }
+
+    fn color(&self) -> Color {
+        match self.below(8) {
+            0 => Color::BLACK,
+            1 => Color::new(5.0, 0.0, 1e20),
+            _ => Color::new(
+                self.between(0.0, 1.0),
+                self.between(0.0, 1.0),
+                self.between(0.0, 1.0),
+            ),
+        }
+    }
+
+    fn material(&self) -> MaterialDescription {
+        MaterialDescription {
+            diffuse: self.color(),
+            specular: self.color(),
+            ambient: self.color(),
+            reflection: self.pick(&[0.0, 0.0, 0.3, 1.0, 1e30]),
+            shininess: self.pick(&[0.0, 1.0, 50.0, 1024.0, 1025.0, 0.3, 2.5, 50.5, 1e30]),
+            refraction: self.pick(&[0.0, 0.0, 0.4, 1.0, 3.0]),
+            index_of_refraction: self
+                .pick(&[1.0, 1.0, 1.5, 1.5, 0.9, 1.0001, 2.4, 1e-3, 1e-6, 1e4, 1e10]),
+        }
+    }
+
+    /// Fills pools with a scene that may be of any size, crowded, coincident or empty.
+    fn fill(&self, pools: &mut Pools) {
+        let mut pools = pools.as_mut();
+        let scale = self.pick(&[
+            1.0, 1.0, 1.0, 1.0, 1e-3, 1e3, 1e-12, 1e12, 1e-19, 1e17, 1e-30,
+        ]);
+        let grid = self.one_in(3);
+        let count = |usual| match self.below(12) {
+            0 => 40,
+            1 => 0,
+            _ => self.below(usual),
+        };
+        pools.set_camera(Camera {
+            position: self.point(self.pick(&[0.0, 0.5, 3.0]) * scale, grid),
+        });
+        pools.set_ambient(self.pick(&[0.0, 0.1, 1.0]));
+        pools.set_background(Background {
+            color: self.color(),
+            sky: self.one_in(2),
+        });
+        for _ in 0..self.below(4) {
+            let light = Light {
+                position: self.point(self.pick(&[1.0, 5.0, 50.0]) * scale, grid),
+                specular: self.color(),
+                diffuse: self.color(),
+            };
+            pools.add_light(light).unwrap();
+        }
+        let extent = self.pick(&[1.0, 3.0, 10.0]) * scale;
+        // Shapes that are none are left out; the pools have room for all others.
+        let check = |added: Result<(), SceneError>| {
+            assert!(!matches!(added, Err(SceneError::PoolFull { .. })));
+        };
+        let material = self.material();
+        let material = || {
+            if self.one_in(3) {
+                material
+            } else {
+                self.material()
+            }
+        };
+        // In any order of shapes, some of them twice.
+        let (spheres, planes, triangles) = (count(8), count(4), count(10));
+        let mut shapes = [vec![0; spheres], vec![1; planes], vec![2; triangles]].concat();
+        while !shapes.is_empty() {
+            let shape = shapes.swap_remove(self.below(shapes.len()));
+            let copies = if shapes.len() < 20 && self.one_in(6) {
+                2
+            } else {
+                1
+            };
+            let points = [(); 3].map(|()| self.point(extent, grid));
+            let size = self.pick(&[0.1, 0.5, 1.0, 4.0, 1e-4]) * extent;
+            let size = if grid {
+                size
+            } else {
+                size * self.between(0.5, 1.0)
+            };
+            for _ in 0..copies {
+                check(match shape {
+                    0 => pools.add_sphere(points[0], size, material()),
+                    1 => pools.add_plane(points[0], size, material()),
+                    _ => pools.add_triangle(points, material()),
+                });
+            }
+        }
+    }
+}
