@@ -208,6 +208,62 @@ fn draws_objects_without_material_and_with_any_numbers() {
     assert_same("without material", scene, 33, 21, 5);
 }
 
+/// A material that shows where it is and casts both kinds of rays.
+fn glass(shade: f32) -> MaterialDescription {
+    MaterialDescription {
+        ambient: Color::new(shade, 0.5, 1.0 - shade),
+        reflection: 0.4,
+        refraction: 0.6,
+        index_of_refraction: 1.2,
+        ..Default::default()
+    }
+}
+
+#[test]
+fn draws_more_rays_of_a_depth_than_a_batch_holds() {
+    let mut pools = Box::new(Pools::new());
+    let mut filling = Pools::as_mut(&mut pools);
+    filling.set_ambient(0.5);
+    for radius in [1.0, 2.0, 4.0] {
+        let center = Vec3::new(0.1, 0.2, 0.3);
+        filling
+            .add_sphere(center, radius, glass(radius / 4.0))
+            .unwrap();
+    }
+    assert_same("glass balls", pools.as_scene(), 1201, 2, 6);
+}
+
+#[test]
+fn the_first_of_coincident_objects_of_any_shapes_wins() {
+    // Along the axis of the camera each of them is met at exactly 2.
+    let orders = [
+        [0, 1, 2],
+        [0, 2, 1],
+        [1, 0, 2],
+        [1, 2, 0],
+        [2, 0, 1],
+        [2, 1, 0],
+    ];
+    for order in orders {
+        let mut pools = Box::new(Pools::new());
+        let mut filling = Pools::as_mut(&mut pools);
+        filling.set_ambient(1.0);
+        for shape in order {
+            match shape {
+                0 => filling.add_sphere(Vec3::new(0.0, 0.0, 4.0), 2.0, glass(0.1)),
+                1 => filling.add_plane(Vec3::new(0.0, 0.0, 1.0), -2.0, glass(0.2)),
+                _ => {
+                    let corner = |x, y| Vec3::new(x, y, 2.0);
+                    let corners = [corner(-4.0, -4.0), corner(4.0, -4.0), corner(0.0, 4.0)];
+                    filling.add_triangle(corners, glass(0.3))
+                }
+            }
+            .unwrap();
+        }
+        assert_same(&format!("order {order:?}"), pools.as_scene(), 9, 9, 2);
+    }
+}
+
 /// The generator splitmix64, and scenes from it.
 struct Random(Cell<u64>);
 
