@@ -94,7 +94,7 @@ class Builder:
             raise Failed("\n" + done.stdout.strip())
         return done.stdout
 
-    def image(self, board, program, name, profile="release", proven=True, example=False, **variables):
+    def image(self, board, program, name, profile="size", proven=True, example=False, **variables):
         """The path of a program's image."""
         target = BOARDS[board][0]
         features = board + (",prove-no-panic" if proven else "")
@@ -270,13 +270,13 @@ class Board:
         return f"{measured.crc}, {measured}"
 
     def harness(self):
-        image = self.builder.image(self.name, "harness", "harness", "size")
+        image = self.builder.image(self.name, "harness", "harness")
         measured = Measured(self.name, image, run(image))
         self.measured["no scene", "size"] = measured
         return str(measured)
 
     def parsed(self):
-        image = self.builder.image(self.name, "parsed", "parsed", "size")
+        image = self.builder.image(self.name, "parsed", "parsed")
         printed = run(image)
         measured = Measured(self.name, image, printed)
         self.measured["default, parsed", "size"] = measured
@@ -288,7 +288,7 @@ class Board:
         return f"{measured.crc}, {measured}; a mistake at line 5, column 5"
 
     def rejected(self):
-        printed = run(self.builder.image(self.name, "rejected", "rejected", "size"))
+        printed = run(self.builder.image(self.name, "rejected", "rejected"))
         if printed != self.expected["rejected"]:
             raise Failed(f"the board says\n{printed}the host says\n{self.expected['rejected']}")
         return f"{len(printed.splitlines())}, as the host's"
