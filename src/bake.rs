@@ -53,7 +53,14 @@ impl<T: Scalar> fmt::Display for Number<T> {
             // `Debug` writes the shortest digits that read back to the same bits.
             write!(f, "{:?}_{}", self.0, T::NAME)
         } else {
-            write!(f, "{}::INFINITY", T::NAME)
+            let name = if self.0 > T::ZERO {
+                "INFINITY"
+            } else if self.0 < T::ZERO {
+                "NEG_INFINITY"
+            } else {
+                "NAN"
+            };
+            write!(f, "{}::{name}", T::NAME)
         }
     }
 }

@@ -118,8 +118,9 @@ impl<T: Scalar> Vec3<T> {
         if drift < T::EPSILON * T::from_i32(256) {
             Some(direction.renormalize())
         } else {
-            // Only an extreme index cancels enough to come here.
-            direction.try_normalize().map(|(unit, _)| unit)
+            // Only an extreme index cancels enough to come here, or even to end on the wrong side.
+            let (unit, _) = direction.try_normalize()?;
+            (unit.dot(normal) < T::ZERO).then_some(unit)
         }
     }
 }

@@ -678,7 +678,11 @@ fn a_display_smaller_than_the_picture_costs_only_what_it_shows() {
         picture.draw(&mut canvas).unwrap();
         let shown = area.intersection(&picture.bounding_box());
         expected.assert_drawn(&canvas, shown, &format!("display {area:?}"));
-        assert_rows(&canvas, shown);
+        if shown.size.width == 0 {
+            assert!(canvas.fills.is_empty(), "display {area:?}");
+        } else {
+            assert_rows(&canvas, shown);
+        }
         let count = shown.size.width * shown.size.height;
         assert_eq!(
             source.pixels.get(),
@@ -816,4 +820,51 @@ fn a_picture_without_pixels_is_done_at_once() {
         picture.draw(&mut canvas).unwrap();
         assert_eq!((canvas.drawn(), source.pixels.get()), (0, 0));
     }
+}
+
+#[test]
+fn a_shorter_buffer_in_the_middle_of_a_stretch_loses_nothing() {
+    let source = Coordinates(SIZE);
+    let picture = Picture::<_, Exact<Rgb888>>::new(&source);
+    let expected = Expected::of(&picture);
+    let random = Random::of_test(77);
+    for _ in 0..50 {
+        let mut canvas = Canvas::new(SIZE.width, SIZE.height);
+        let mut frame = Frame::of(&picture);
+        let mut buffer = [Rgb888::new(0, 0, 0); 37];
+        for _ in 0..1_000_000 {
+            let length = random.below(buffer.len() + 1);
+            let budget = Budget::Pixels(1 + random.below(60) as u32);
+            let progress = frame
+                .draw(&picture, &mut canvas, &mut buffer[..length], budget)
+                .unwrap();
+            if progress == Progress::Done {
+                break;
+            }
+        }
+        assert_eq!(frame.progress(), Progress::Done);
+        assert_eq!(
+            canvas.drawn(),
+            usize::from(SIZE.width) * usize::from(SIZE.height)
+        );
+        // Where a buffer became shorter, what the longer one held is traced again.
+        assert_eq!(canvas.overdrawn, 0);
+        expected.assert_drawn(&canvas, picture.bounding_box(), "buffers of any length");
+    }
+}
+
+#[test]
+fn areas_at_the_ends_of_their_range_are_cut_to_the_picture() {
+    let source = Coordinates(SIZE);
+    let picture = Picture::<_, Exact<Rgb888>>::new(&source);
+    let huge = Size::new(u32::MAX, u32::MAX);
+    let place =
+        |x, y, size| Frame::of_area(&picture, Rectangle::new(Point::new(x, y), size)).area();
+    assert_eq!(place(i32::MIN, i32::MIN, huge), picture.bounding_box());
+    assert_eq!(
+        place(5, 7, huge),
+        rectangle(5, 7, u32::from(SIZE.width) - 5, u32::from(SIZE.height) - 7)
+    );
+    assert!(place(i32::MAX, 0, Size::new(9, 9)).is_zero_sized());
+    assert!(place(0, i32::MAX, huge).is_zero_sized());
 }

@@ -394,3 +394,24 @@ fn too_many_objects_are_drawn_all_the_same() {
         );
     }
 }
+
+#[test]
+fn an_object_that_is_refused_changes_nothing() {
+    let mut pools: ScenePools = scenes::load("default");
+    let before = (
+        pools.as_scene().object_count(),
+        pools.as_scene().sides.len(),
+    );
+    assert!(before.1 > 0);
+    let mut filling = pools.as_mut();
+    let material = scenes::invisible();
+    assert!(filling.add_sphere(Vec3::default(), -1.0, material).is_err());
+    assert!(filling.add_plane(Vec3::default(), 1.0, material).is_err());
+    assert!(
+        filling
+            .add_triangle([Vec3::default(); 3], material)
+            .is_err()
+    );
+    let scene = pools.as_scene();
+    assert_eq!((scene.object_count(), scene.sides.len()), before);
+}

@@ -24,7 +24,7 @@ Examples:
   scanray inspect scene.txt                check what was read
   scanray help render                      all that render can do
 
-Exit codes: 0 fine, 1 pictures differ, 2 usage, 3 scene, 4 files."
+Exit codes: 0 fine, 2 usage, 3 scene, 4 files."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]

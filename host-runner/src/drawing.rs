@@ -5,6 +5,7 @@
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
+use cpu_time::ProcessTime;
 use embedded_graphics::Drawable;
 use embedded_graphics::pixelcolor::Rgb888;
 use rayon::prelude::*;
@@ -16,6 +17,7 @@ use scanray::{
 
 use crate::canvas::Canvas;
 use crate::failure::Failure;
+use crate::packet::PacketTracer;
 use crate::progress::Progress;
 
 /// The largest maximum depth.
@@ -56,7 +58,9 @@ impl Workers {
 ///
 /// As a source of pixels it is compiled once a scalar, not once more for each colour.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct HostTracer<'a, T>(Tracer<'a, T, { Needs::ALL.bits() }, MAX_DEPTH>);
+pub(crate) struct HostTracer<'a, T>(AllStages<'a, T>);
+
+type AllStages<'a, T> = Tracer<'a, T, { Needs::ALL.bits() }, MAX_DEPTH>;
 
 impl<'a, T: Scalar> HostTracer<'a, T> {
     /// A tracer for a picture of a scene.
@@ -103,6 +107,31 @@ impl<'a, T: Scalar> HostTracer<'a, T> {
     }
 }
 
+/// How the host draws with a scalar.
+pub(crate) trait Drawing: Scalar {
+    /// The fastest source of the pixels of [`HostTracer`].
+    type Pixels<'a>: PixelSource<Scalar = Self> + Sync;
+
+    /// The pixels of a tracer.
+    fn pixels<'a>(tracer: &HostTracer<'a, Self>) -> Self::Pixels<'a>;
+}
+
+impl Drawing for f32 {
+    type Pixels<'a> = PacketTracer<'a, MAX_DEPTH>;
+
+    fn pixels<'a>(tracer: &HostTracer<'a, Self>) -> PacketTracer<'a, MAX_DEPTH> {
+        PacketTracer::new(tracer.0)
+    }
+}
+
+impl Drawing for f64 {
+    type Pixels<'a> = HostTracer<'a, Self>;
+
+    fn pixels<'a>(tracer: &HostTracer<'a, Self>) -> HostTracer<'a, Self> {
+        *tracer
+    }
+}
+
 impl<T: Scalar> PixelSource for HostTracer<'_, T> {
     type Scalar = T;
     type Scanline = Scanline<T>;
@@ -129,6 +158,7 @@ pub(crate) struct Parts<'a, P, Q> {
     workers: &'a Workers,
     progress: Progress,
     time: Duration,
+    cpu_time: Duration,
 }
 
 impl<'a, P: PixelSource, Q: Quantizer> Parts<'a, P, Q> {
@@ -145,12 +175,18 @@ impl<'a, P: PixelSource, Q: Quantizer> Parts<'a, P, Q> {
             rows,
             workers,
             time: Duration::ZERO,
+            cpu_time: Duration::ZERO,
         }
     }
 
     /// What drawing has taken so far, without what happens between the parts.
     pub(crate) fn time(&self) -> Duration {
         self.time
+    }
+
+    /// The CPU time of all threads for the same.
+    pub(crate) fn cpu_time(&self) -> Duration {
+        self.cpu_time
     }
 }
 
@@ -166,6 +202,7 @@ where
             return None;
         }
         let start = Instant::now();
+        let cpu_start = ProcessTime::now();
         let width = self.picture.resolution().width;
         let most = (PART_PIXELS / usize::from(width)).max(1);
         let rows = self.rows.len().min(most) as u16;
@@ -181,6 +218,7 @@ where
             });
         });
         self.time += start.elapsed();
+        self.cpu_time += cpu_start.elapsed();
         Some(canvas)
     }
 }

@@ -9,6 +9,7 @@ mod failure;
 mod image;
 mod options;
 mod output;
+mod packet;
 mod places;
 mod pools;
 mod progress;

@@ -47,7 +47,11 @@ impl Place {
                     let folder = folder.display();
                     return Err(cannot(&format_args!("there is no folder {folder}")));
                 }
-                name.to_owned()
+                // A link to a file that is not there yet stays a link.
+                match fs::read_link(name) {
+                    Ok(target) => folder.join(target),
+                    Err(_) => name.to_owned(),
+                }
             }
             Err(error) => return Err(cannot(&error)),
         };

@@ -22,6 +22,8 @@ pub(crate) struct RenderReport {
     pub(crate) threads: usize,
     /// Wall time of drawing, without loading, writing and counting.
     pub(crate) seconds: f64,
+    /// CPU time of all threads for the same.
+    pub(crate) cpu_seconds: f64,
     /// How `rays` and `tests` came about.
     pub(crate) counted_by: &'static str,
     pub(crate) rays: Rays,

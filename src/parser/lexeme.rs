@@ -6,9 +6,8 @@ use nom::IResult;
 use nom::Parser;
 use nom::branch::alt;
 use nom::bytes::complete::{tag, take_while, take_while1};
-use nom::combinator::{eof, opt, peek, recognize, value};
-use nom::multi::many0_count;
-use nom::sequence::{pair, preceded, terminated};
+use nom::combinator::{eof, opt, peek, value};
+use nom::sequence::preceded;
 
 /// What is left of the text behind a lexeme, and the lexeme.
 type Lexeme<'t, O> = IResult<&'t [u8], O, ()>;
@@ -27,7 +26,7 @@ fn blanks(text: &[u8]) -> Lexeme<'_, &[u8]> {
 }
 
 fn comment(text: &[u8]) -> Lexeme<'_, &[u8]> {
-    recognize(pair(tag(&b"#"[..]), take_while(|byte| byte != b'\n'))).parse(text)
+    preceded(tag(&b"#"[..]), take_while(|byte| byte != b'\n')).parse(text)
 }
 
 /// Skips the blanks before the next word of the line and returns the word, or `None` at the end of the
@@ -46,11 +45,18 @@ pub(super) fn end_of_line(text: &[u8]) -> Lexeme<'_, ()> {
 }
 
 /// Skips lines without a word.
+///
+/// A loop, because `many0` and `recognize` slice in a way that keeps a reachable panic in firmware.
 pub(super) fn empty_lines(text: &[u8]) -> Lexeme<'_, ()> {
-    let empty_line = (blanks, opt(comment), tag(&b"\n"[..]));
-    // The last line may end with the text.
-    let tail = opt(terminated(pair(blanks, opt(comment)), eof));
-    value((), pair(many0_count(empty_line), tail)).parse(text)
+    let mut rest = text;
+    while let Ok((next, ())) = end_of_line(rest) {
+        // The end of the text is the end of a line again and again.
+        if next.len() == rest.len() {
+            break;
+        }
+        rest = next;
+    }
+    Ok((rest, ()))
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use embedded_graphics::geometry::{Point, Size};
 use embedded_graphics::primitives::Rectangle;
 
 use super::color::Quantizer;
-use super::picture::{Picture, PixelSource};
+use super::picture::{Picture, PixelSource, visible_part};
 use crate::color::Color;
 
 /// How much may be drawn before control returns to the caller.
@@ -106,13 +106,12 @@ impl Frame {
 
     /// A frame of the part of a picture inside `area`, which may be empty.
     pub fn of_area<P: PixelSource, Q: Quantizer>(picture: &Picture<P, Q>, area: Rectangle) -> Self {
-        use embedded_graphics::geometry::Dimensions;
-        let area = area.intersection(&picture.bounding_box());
+        let (columns, rows) = visible_part(picture.resolution(), area);
         Self {
-            left: area.top_left.x as u16,
-            top: area.top_left.y as u16,
-            width: area.size.width as u16,
-            height: area.size.height as u16,
+            left: columns.start,
+            top: rows.start,
+            width: columns.end - columns.start,
+            height: rows.end - rows.start,
             x: 0,
             y: 0,
             start: 0,
@@ -179,6 +178,10 @@ impl Frame {
         let start = self.start;
         let length = buffer.len().min(usize::from(self.width - start)) as u16;
         let end = start + length;
+        if self.x >= end {
+            // A shorter buffer than that of the last call: what that one held is lost.
+            self.x = start;
+        }
         let y = self.top.saturating_add(self.y);
         let scanline = picture.scanline(y);
         for pixel in buffer
@@ -208,7 +211,7 @@ impl Frame {
     /// Draws on a display until the frame is done or the budget is spent, one
     /// [`DrawTarget::fill_contiguous`] for each stretch of a row that is complete. `buffer` keeps the
     /// stretch under way, so give the same one each time; a row long is best, and an empty one stands for
-    /// one of a single pixel.
+    /// one of a single pixel. A budget of 0 draws nothing.
     ///
     /// # Errors
     ///

@@ -2,6 +2,7 @@
 
 use core::fmt;
 use core::marker::PhantomData;
+use core::ops::Range;
 
 use embedded_graphics::Drawable;
 use embedded_graphics::draw_target::DrawTarget;
@@ -173,6 +174,19 @@ impl<P: PixelSource, Q: Quantizer> Picture<P, Q> {
     }
 }
 
+/// The columns and rows of a picture inside an area, which may be anywhere and of any size:
+/// `Rectangle::intersection` overflows at the ends of its range.
+pub(super) fn visible_part(resolution: Resolution, area: Rectangle) -> (Range<u16>, Range<u16>) {
+    let part = |start: i32, length: u32, of: u16| {
+        let inside = |edge: i64| edge.clamp(0, i64::from(of)) as u16;
+        inside(i64::from(start))..inside(i64::from(start) + i64::from(length))
+    };
+    (
+        part(area.top_left.x, area.size.width, resolution.width),
+        part(area.top_left.y, area.size.height, resolution.height),
+    )
+}
+
 impl<P: PixelSource, Q: Quantizer> Dimensions for Picture<P, Q> {
     fn bounding_box(&self) -> Rectangle {
         let Resolution { width, height } = self.resolution();
@@ -193,14 +207,19 @@ impl<P: PixelSource, Q: Quantizer> Drawable for Picture<P, Q> {
     ///
     /// The target's own.
     fn draw<D: DrawTarget<Color = Q::Color>>(&self, target: &mut D) -> Result<(), D::Error> {
-        let area = self.bounding_box().intersection(&target.bounding_box());
-        let columns = area.columns();
-        for y in area.rows() {
-            let scanline = self.source.scanline(y as u16);
-            let row = Rectangle::new(Point::new(columns.start, y), Size::new(area.size.width, 1));
+        let (columns, rows) = visible_part(self.resolution(), target.bounding_box());
+        if columns.is_empty() {
+            return Ok(());
+        }
+        for y in rows {
+            let scanline = self.source.scanline(y);
+            let row = Rectangle::new(
+                Point::new(i32::from(columns.start), i32::from(y)),
+                Size::new(u32::from(columns.end - columns.start), 1),
+            );
             let colors = columns
                 .clone()
-                .map(|x| self.quantized_pixel(&scanline, x as u16, y as u16).0);
+                .map(|x| self.quantized_pixel(&scanline, x, y).0);
             target.fill_contiguous(&row, colors)?;
         }
         Ok(())

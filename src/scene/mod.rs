@@ -19,7 +19,7 @@ use crate::shape::{Plane, Sphere, Surface, Triangle};
 /// A view of a scene in [`ScenePools`] or in flash; copying it copies no object.
 ///
 /// The tracer relies on the objects of each slice being in the order of their numbers, and on these
-/// being different. An object whose material index is out of range is drawn black.
+/// being different. An object whose material index is out of range shows the background.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scene<'a, T = f32> {
     /// Where it is seen from.
@@ -95,7 +95,7 @@ impl<'a, T: Scalar> Scene<'a, T> {
         })
     }
 
-    /// What a surface is made of; black if the scene has no such material.
+    /// What a surface is made of; all numbers are 0 if the scene has no such material.
     pub fn material(&self, surface: Surface) -> MaterialDescription<T> {
         self.materials
             .get(surface.material as usize)

@@ -325,9 +325,9 @@ impl<T: Scalar> PoolsMut<'_, T> {
         material: MaterialDescription<T>,
     ) -> Result<(), SceneError> {
         self.has_room(Pool::Spheres)?;
-        self.sides.clear();
         let mut sphere = Sphere::new(center, radius, self.next_surface())?;
         sphere.set_material(self.share(material)?);
+        self.sides.clear();
         push(self.spheres, sphere, Pool::Spheres)
     }
 
@@ -343,9 +343,9 @@ impl<T: Scalar> PoolsMut<'_, T> {
         material: MaterialDescription<T>,
     ) -> Result<(), SceneError> {
         self.has_room(Pool::Planes)?;
-        self.sides.clear();
         let mut plane = Plane::new(normal, distance, self.next_surface())?;
         plane.set_material(self.share(material)?);
+        self.sides.clear();
         push(self.planes, plane, Pool::Planes)
     }
 
@@ -360,9 +360,9 @@ impl<T: Scalar> PoolsMut<'_, T> {
         material: MaterialDescription<T>,
     ) -> Result<(), SceneError> {
         self.has_room(Pool::Triangles)?;
-        self.sides.clear();
         let mut triangle = Triangle::new(vertices, self.next_surface())?;
         triangle.set_material(self.share(material)?);
+        self.sides.clear();
         push(self.triangles, triangle, Pool::Triangles)
     }
 

@@ -7,8 +7,8 @@ use crate::vec3::Vec3;
 
 /// A sphere.
 ///
-/// Invariants: `radius > 0`, `radius_squared` is its finite square (0 for a radius so small that it
-/// underflows, which nothing can then hit), `offset` is an upper bound of the origin offset anywhere
+/// Invariants: `radius > 0`; `radius_squared` is its finite square, or −1 for a radius so small that the
+/// square loses digits (below 1.1e-19 in `f32`), so that no ray meets the sphere; `offset` is an upper bound of the origin offset anywhere
 /// on the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere<T = f32> {
@@ -29,10 +29,15 @@ impl<T: Scalar> Sphere<T> {
         if !(radius > T::ZERO) {
             return Err(ShapeError::RadiusNotPositive);
         }
-        let radius_squared = radius * radius;
-        if !radius_squared.is_finite() {
+        let square = radius * radius;
+        if !square.is_finite() {
             return Err(ShapeError::RadiusTooLarge);
         }
+        let radius_squared = if square < T::MIN_POSITIVE {
+            -T::ONE
+        } else {
+            square
+        };
         // Σ|nᵢPᵢ| ≤ Σ|cᵢ| + r, since P = c + n·r and Σnᵢ² = 1.
         let c = center.abs();
         let offset = origin_offset(c.x + c.y + c.z + radius, radius);
@@ -72,7 +77,7 @@ impl<T: Scalar> Sphere<T> {
         self.radius
     }
 
-    /// Square of the radius, as rounded.
+    /// Square of the radius, as rounded; −1 if no ray is to meet the sphere.
     pub const fn radius_squared(&self) -> T {
         self.radius_squared
     }

@@ -8,7 +8,8 @@ use crate::vec3::Vec3;
 /// A triangle, seen from both sides.
 ///
 /// Invariants: `normal = normalize((v3 − v1) × (v2 − v1))`; the ball around `ball_center` holds the
-/// three vertices with room for the rounding of its own construction; `offset` is an upper bound of
+/// three vertices with room for the rounding of its own construction, or has the square radius −1, so that
+/// no ray meets a triangle whose squares lose digits (smaller than 1e-19 in `f32`); `offset` is an upper bound of
 /// the origin offset anywhere on the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle<T = f32> {
@@ -53,7 +54,12 @@ impl<T: Scalar> Triangle<T> {
         if !(sine > T::TWO * T::TWO * T::EPSILON) {
             return Err(ShapeError::NoArea);
         }
-        let (ball_center, ball_radius_squared) = bounding_ball(vertices);
+        let (ball_center, square) = bounding_ball(vertices);
+        let ball_radius_squared = if square < T::MIN_POSITIVE {
+            -T::ONE
+        } else {
+            square
+        };
         // Σ|nᵢPᵢ| ≤ √3·extent < 2·extent.
         let extent = extent(v1).max(extent(v2)).max(extent(v3));
         Ok(Self::from_parts(
@@ -100,7 +106,7 @@ impl<T: Scalar> Triangle<T> {
         self.ball_center
     }
 
-    /// Square of the radius of the bounding ball, rounded up.
+    /// Square of the radius of the bounding ball, rounded up; −1 if no ray is to meet the triangle.
     pub const fn ball_radius_squared(&self) -> T {
         self.ball_radius_squared
     }

@@ -31,7 +31,8 @@ struct Row<T> {
     origin: Vec3<T>,
     height: T,
     half_width: T,
-    /// Square of what `y − height·z` exceeds the distance from the plane of the row by.
+    /// How many times larger the square of `y − height·z` is than that of the distance from the plane of
+    /// the row.
     scale_squared: T,
 }
 

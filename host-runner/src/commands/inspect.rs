@@ -18,7 +18,7 @@ use crate::scene_file::SceneSource;
 Examples:
   scanray inspect                      the default scene
   scanray inspect scenes/pyramids.txt
-  grep -v '^2' scene.txt | scanray inspect -")]
+  sed 's/^800 600$/160 120/' scene.txt | scanray inspect -")]
 pub(crate) struct InspectArgs {
     /// Scene file, `-` for standard input; the default scene if there is none
     #[arg(value_name = "SCENE")]

@@ -6,11 +6,11 @@ use std::process::ExitCode;
 
 use clap::Args;
 use embedded_graphics::pixelcolor::Rgb888;
-use scanray::{DEFAULT_MAX_DEPTH, DisplayColor, Picture, Quantizer, Scalar};
+use scanray::{DEFAULT_MAX_DEPTH, DisplayColor, Picture, Quantizer};
 
 use crate::canvas::Canvas;
 use crate::console::{print, say};
-use crate::drawing::{HostTracer, Parts, Workers};
+use crate::drawing::{Drawing, HostTracer, Parts, Workers};
 use crate::failure::Failure;
 use crate::image::{self, ImageFormat};
 use crate::options::{ColorName, RowRange, ScalarName, Size, max_depth, name_of, with_color};
@@ -92,6 +92,15 @@ pub(crate) struct RenderArgs {
     verbose: bool,
 }
 
+/// A reader that has read enough of the listing or of the JSON does not end the drawing: the pictures go
+/// elsewhere.
+fn still_draw(printed: Result<(), Failure>) -> Result<(), Failure> {
+    match printed {
+        Err(Failure::ClosedPipe) => Ok(()),
+        other => other,
+    }
+}
+
 /// A picture to be drawn.
 struct Job<'a> {
     args: &'a RenderArgs,
@@ -143,7 +152,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
 }
 
 impl Job<'_> {
-    fn run<T: HostScalar>(&self) -> Result<(), Failure> {
+    fn run<T: HostScalar + Drawing>(&self) -> Result<(), Failure> {
         let args = self.args;
         let mut pools = T::pools();
         self.scene.load(&mut pools)?;
@@ -153,7 +162,7 @@ impl Job<'_> {
             if args.json || matches!(self.place, Place::Stdout) {
                 let _ = scene_data::write(&mut io::stderr().lock(), &scene);
             } else {
-                print(|out| scene_data::write(out, &scene))?;
+                still_draw(print(|out| scene_data::write(out, &scene)))?;
             }
         }
         let resolution = args.size.map_or(scene.resolution, |Size(size)| size);
@@ -171,26 +180,28 @@ impl Job<'_> {
             max_depth: args.max_depth,
             threads: self.workers.count(),
             seconds: 0.0,
+            cpu_seconds: 0.0,
             counted_by: "a second pass, not timed",
             rays: Default::default(),
             tests: Default::default(),
             pools: Pools(pools.usage()),
         };
-        with_color!(args.color, C => self.draw_in_color::<T, C>(&tracer, &mut report))?;
+        let pixels = T::pixels(&tracer);
+        with_color!(args.color, C => self.draw_in_color::<T, C>(&pixels, &mut report))?;
         self.say_saved(&report);
         if args.json {
             report.set_work(&tracer.count_work(rows, self.workers));
-            print(|out| report.write_json(out))?;
+            still_draw(print(|out| report.write_json(out)))?;
         }
         Ok(())
     }
 
-    fn draw_in_color<T: Scalar, C: DisplayColor + Into<Rgb888> + Send + Sync>(
+    fn draw_in_color<T: Drawing, C: DisplayColor + Into<Rgb888> + Send + Sync>(
         &self,
-        tracer: &HostTracer<'_, T>,
+        pixels: &T::Pixels<'_>,
         report: &mut RenderReport,
     ) -> Result<(), Failure> {
-        let picture = Picture::new(tracer);
+        let picture = Picture::new(pixels);
         if self.args.dither {
             self.draw::<T, scanray::Dithered<C>>(picture.dithered(), report)
         } else {
@@ -199,9 +210,9 @@ impl Job<'_> {
     }
 
     /// Draws and writes the picture. Small ones are complete before their file is begun.
-    fn draw<T: Scalar, Q: Quantizer<Color: DisplayColor + Into<Rgb888> + Send> + Sync>(
+    fn draw<T: Drawing, Q: Quantizer<Color: DisplayColor + Into<Rgb888> + Send> + Sync>(
         &self,
-        picture: Picture<&HostTracer<'_, T>, Q>,
+        picture: Picture<&T::Pixels<'_>, Q>,
         report: &mut RenderReport,
     ) -> Result<(), Failure> {
         let rows = report.rows.clone();
@@ -214,6 +225,7 @@ impl Job<'_> {
             image::write(self.format, file, size, &mut rows)
         })?;
         report.seconds = parts.time().as_secs_f64();
+        report.cpu_seconds = parts.cpu_time().as_secs_f64();
         Ok(())
     }
 

@@ -76,6 +76,24 @@ fn a_reader_that_leaves_is_no_error() {
     }
 }
 
+#[test]
+fn a_reader_that_leaves_does_not_cost_the_pictures() {
+    for flag in ["--json", "--verbose"] {
+        let folder = Folder::new();
+        folder.write("a.txt", SMALL_SCENE);
+        folder.write("b.txt", SMALL_SCENE);
+        let mut child = folder
+            .program(&["render", "a.txt", "b.txt", flag])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        assert_eq!(child.wait().unwrap().code(), Some(0));
+        assert_eq!(folder.names(), ["a.ppm", "a.txt", "b.ppm", "b.txt"]);
+    }
+}
+
 #[cfg(target_os = "linux")]
 mod linux {
     use std::fs::{File, OpenOptions};
