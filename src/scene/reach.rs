@@ -30,16 +30,6 @@ impl ObjectSet {
         planes: 0,
         triangles: 0,
     };
-
-    /// The objects of both sets.
-    #[must_use]
-    pub const fn union(self, other: Self) -> Self {
-        Self {
-            spheres: self.spheres | other.spheres,
-            planes: self.planes | other.planes,
-            triangles: self.triangles | other.triangles,
-        }
-    }
 }
 
 /// What rays can meet that leave one side of an object.

@@ -636,8 +636,38 @@ specialize!(f64);
 /// A tracer for a `static` scene with only the stages the scene needs.
 ///
 /// `tracer_for!(SCENE)` compiles what the scene needs and frames for [`DEFAULT_MAX_DEPTH`];
-/// `tracer_for!(SCENE, stack = 8)` frames for a depth of 8; `tracer_for!(SCENE, stages = S)` exactly the
-/// stages `S`, and does not compile when the scene needs one more: the error names it.
+/// `tracer_for!(SCENE, stack = 8)` has 8 frames; `tracer_for!(SCENE, stages = S)` compiles exactly the
+/// stages `S`:
+///
+/// ```
+/// # use scanray::*;
+/// static EMPTY: Scene<'static> = Scene {
+///     camera: Camera { position: Vec3::new(0.0, 0.0, 0.0) },
+///     resolution: Resolution { width: 4, height: 3 },
+///     ambient: 0.1,
+///     background: Background { color: Color::new(0.5, 0.5, 1.0), sky: true },
+///     lights: &[], spheres: &[], planes: &[], triangles: &[], materials: &[], sides: &[],
+/// };
+/// let tracer = tracer_for!(EMPTY);
+/// assert_eq!(tracer.stages(), Needs::SKY);
+/// let same = tracer_for!(EMPTY, stages = Needs::SKY);
+/// # assert_eq!(tracer.pixel(1, 1), same.pixel(1, 1));
+/// ```
+///
+/// It does not compile when the scene needs a stage more, and the error names it: "the scene needs the
+/// stage `sky`, which is left out".
+///
+/// ```compile_fail,E0080
+/// # use scanray::*;
+/// # static EMPTY: Scene<'static> = Scene {
+/// #     camera: Camera { position: Vec3::new(0.0, 0.0, 0.0) },
+/// #     resolution: Resolution { width: 4, height: 3 },
+/// #     ambient: 0.1,
+/// #     background: Background { color: Color::new(0.5, 0.5, 1.0), sky: true },
+/// #     lights: &[], spheres: &[], planes: &[], triangles: &[], materials: &[], sides: &[],
+/// # };
+/// let tracer = tracer_for!(EMPTY, stages = Needs::SPHERES);
+/// ```
 #[macro_export]
 macro_rules! tracer_for {
     ($scene:path) => {

@@ -20,7 +20,7 @@ mod side;
 pub(crate) use row::visible_in_row;
 
 use crate::scalar::Scalar;
-use crate::scene::{Object, ObjectSet, Reach, Scene, ScenePools};
+use crate::scene::{Object, ObjectSet, Scene, ScenePools};
 use crate::vec3::Vec3;
 
 /// A ball around a bounded object.
@@ -81,13 +81,6 @@ fn collect<T: Scalar>(
         }
     }
     set
-}
-
-impl<T: Scalar> Scene<'_, T> {
-    /// The reach of the sides of all objects, for [`Scene::sides`].
-    pub fn find_sides(&self) -> impl Iterator<Item = Reach> {
-        self.objects().flat_map(|object| side::sides(self, object))
-    }
 }
 
 impl<

@@ -1,0 +1,94 @@
+//! Stages that a scene does not need can be left out: the picture has the same bits. Stages that it needs
+//! cannot.
+
+mod common;
+
+use common::sampling::bits;
+use common::scenes::load;
+use scanray::{MissingStages, Needs, Resolution, Tracer};
+
+const SIZE: Resolution = Resolution {
+    width: 80,
+    height: 60,
+};
+
+/// What all scenes of the repository need.
+const COMMON: Needs = Needs::SPHERES
+    .union(Needs::PLANES)
+    .union(Needs::TRIANGLES)
+    .union(Needs::LIGHT)
+    .union(Needs::SHADOWS)
+    .union(Needs::SPECULAR)
+    .union(Needs::REFLECTION);
+
+/// Draws a scene with the stages `NEEDS` alone, which must be exactly those it needs.
+fn draws_with<const NEEDS: u32>(name: &str) {
+    let pools = load::<f32>(name);
+    let all = Tracer::new(pools.as_scene()).with_resolution(SIZE);
+    assert_eq!(all.stages(), Needs::ALL);
+    assert_eq!(pools.as_scene().needs(), Needs::from_bits(NEEDS), "{name}");
+    let few = all.specialize::<NEEDS>().unwrap();
+    for y in 0..SIZE.height {
+        for x in 0..SIZE.width {
+            assert_eq!(
+                bits(few.pixel(x, y)),
+                bits(all.pixel(x, y)),
+                "{name} {x},{y}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_scenes_have_the_same_bits_with_what_they_need() {
+    const STRAIGHT: Needs = COMMON.union(Needs::REFRACTION);
+    const BENT: Needs = STRAIGHT.union(Needs::BENDING);
+    draws_with::<{ BENT.union(Needs::SKY).bits() }>("default");
+    draws_with::<{ STRAIGHT.union(Needs::SKY).bits() }>("reflective");
+    draws_with::<{ STRAIGHT.union(Needs::SKY).bits() }>("window-room");
+    draws_with::<{ STRAIGHT.union(Needs::PLAIN_BACKGROUND).bits() }>("pyramids");
+    draws_with::<{ COMMON.union(Needs::PLAIN_BACKGROUND).bits() }>("mirror-room");
+}
+
+#[test]
+fn a_missing_stage_is_named() {
+    let pools = load::<f32>("default");
+    let tracer = Tracer::new(pools.as_scene());
+    let error = tracer.specialize::<{ COMMON.bits() }>().unwrap_err();
+    assert_eq!(
+        error,
+        MissingStages(Needs::REFRACTION.union(Needs::BENDING).union(Needs::SKY))
+    );
+    assert_eq!(
+        error.to_string(),
+        "the scene needs stages that are not compiled in: refraction, bending, sky"
+    );
+}
+
+#[test]
+fn fractional_shininess_is_needed_where_it_shows() {
+    let text = |shininess: &str, specular: &str| {
+        format!(
+            "1\n0 0 0\n8 6\n5 5 0 1 1 1 1 1 1\n0.1\n0\n0 0 0\n\
+             0 0 0 3 1 1 1 1 {specular} 1 1 1 0 {shininess} 0 0\n"
+        )
+    };
+    let needs = |text: String| {
+        let mut pools: scanray::ScenePools = scanray::ScenePools::new();
+        pools.parse(text.as_bytes()).unwrap();
+        pools.as_scene().needs()
+    };
+    let shining = Needs::SPHERES
+        .union(Needs::LIGHT)
+        .union(Needs::SHADOWS)
+        .union(Needs::PLAIN_BACKGROUND)
+        .union(Needs::SPECULAR);
+    assert_eq!(needs(text("50", "1 1 1")), shining);
+    let fractional = shining.union(Needs::FRACTIONAL_SHININESS);
+    assert_eq!(needs(text("50.5", "1 1 1")), fractional);
+    // Without a highlight its exponent does not matter.
+    assert_eq!(
+        needs(text("50.5", "0 0 0")),
+        shining.without(Needs::SPECULAR)
+    );
+}
