@@ -19,8 +19,9 @@ Without a command, the default scene is drawn into output.ppm.
 Examples:
   scanray                                  draw the default scene
   scanray render scene.txt -o scene.png    draw a scene into a PNG file
-  scanray render scene.txt -o tft.png --size 160x128 --color rgb565 --dither
+  scanray render scene.txt -o tft.png --display st7789
                                            see it as a small colour display shows it
+  scanray render --display list            displays to choose from
   scanray inspect scene.txt                check what was read
   scanray help render                      all that render can do
 

@@ -6,15 +6,17 @@ use std::process::ExitCode;
 
 use clap::Args;
 use embedded_graphics::pixelcolor::Rgb888;
-use scanray::{DEFAULT_MAX_DEPTH, DisplayColor, Picture, Quantizer};
+use scanray::{DisplayColor, Picture, Quantizer};
 
 use crate::canvas::Canvas;
 use crate::console::{print, say};
+use crate::displays;
 use crate::drawing::{Drawing, HostTracer, Parts, Workers};
 use crate::failure::Failure;
 use crate::image::{self, ImageFormat};
-use crate::options::{ColorName, RowRange, ScalarName, Size, max_depth, name_of, with_color};
+use crate::options::{RowRange, ScalarName, name_of, with_color};
 use crate::output::Place;
+use crate::picture_args::{PictureArgs, PictureSettings};
 use crate::places::places;
 use crate::pools::HostScalar;
 use crate::render_report::{Pools, RenderReport};
@@ -27,10 +29,11 @@ use crate::scene_file::SceneSource;
 Examples:
   scanray render                                      the default scene, to output.ppm
   scanray render scenes/pyramids.txt -o pyramids.png  a PNG file
-  scanray render scene.txt -o tft.png --size 160x128 --color rgb565 --dither
+  scanray render scene.txt -o tft.png --display st7789
                                                       as a small colour display shows it
-  scanray render scene.txt -o oled.png --size 128x64 --color binary --dither
-                                                      as a monochrome display shows it
+  scanray render --display list                       displays, and what each name stands for
+  scanray render scene.txt -o oled.png --size 72x40 --color binary --dither
+                                                      as any other display shows it
   scanray render scenes/*.txt -o pictures             each scene to pictures/NAME.ppm
   scanray render scene.txt -o - | pnmtojpeg > scene.jpg
   scanray render scene.txt --json | jq .rays          what the picture took")]
@@ -44,36 +47,8 @@ pub(crate) struct RenderArgs {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
-    /// Width and height in pixels [default: the scene's own]
-    #[arg(long, value_name = "WxH")]
-    size: Option<Size>,
-
-    /// How many mirrored or refracted rays may follow one another, at most 32
-    #[arg(
-        long,
-        value_name = "N",
-        default_value_t = DEFAULT_MAX_DEPTH,
-        value_parser = max_depth,
-        allow_negative_numbers = true
-    )]
-    max_depth: usize,
-
-    /// Colours of the display
-    #[arg(
-        long,
-        value_name = "NAME",
-        default_value = "rgb888",
-        hide_possible_values = false
-    )]
-    color: ColorName,
-
-    /// Show shades between two levels by a fixed pattern (ordered dither)
-    #[arg(long)]
-    dither: bool,
-
-    /// Number type of the tracer
-    #[arg(long, value_name = "TYPE", default_value = "f32")]
-    scalar: ScalarName,
+    #[command(flatten)]
+    picture: PictureArgs,
 
     /// Draw only rows A up to, but not including, B; the file holds nothing else
     #[arg(long, value_name = "A..B")]
@@ -104,6 +79,7 @@ fn still_draw(printed: Result<(), Failure>) -> Result<(), Failure> {
 /// A picture to be drawn.
 struct Job<'a> {
     args: &'a RenderArgs,
+    settings: PictureSettings,
     workers: &'a Workers,
     scene: &'a SceneSource,
     place: &'a Place,
@@ -116,6 +92,10 @@ struct Job<'a> {
 ///
 /// [`Failure`], for what concerns them all.
 pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
+    if args.picture.wants_list() {
+        return print(displays::write_list).map(|()| ExitCode::SUCCESS);
+    }
+    let settings = args.picture.settings();
     let scenes = SceneSource::list(&args.scenes);
     let places = places(&scenes, args.output.as_deref())?;
     if args.json && matches!(*places, [(Place::Stdout, _)]) {
@@ -128,12 +108,13 @@ pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     for (scene, (place, format)) in scenes.iter().zip(&places) {
         let job = Job {
             args,
+            settings,
             workers: &workers,
             scene,
             place,
             format: *format,
         };
-        let result = match args.scalar {
+        let result = match settings.scalar {
             ScalarName::F32 => job.run::<f32>(),
             ScalarName::F64 => job.run::<f64>(),
         };
@@ -165,9 +146,10 @@ impl Job<'_> {
                 still_draw(print(|out| scene_data::write(out, &scene)))?;
             }
         }
-        let resolution = args.size.map_or(scene.resolution, |Size(size)| size);
+        let settings = &self.settings;
+        let resolution = settings.resolution(scene.resolution);
         let rows = RowRange::within(args.rows, resolution.height).map_err(Failure::Usage)?;
-        let tracer = HostTracer::new(scene, resolution, args.max_depth)?;
+        let tracer = HostTracer::new(scene, resolution, settings.max_depth)?;
         let mut report = RenderReport {
             scene: self.scene.name(),
             file: self.place.name(),
@@ -175,9 +157,9 @@ impl Job<'_> {
             size: resolution,
             rows: rows.clone(),
             scalar: T::NAME,
-            color: name_of(args.color),
-            dither: args.dither,
-            max_depth: args.max_depth,
+            color: name_of(settings.color),
+            dither: settings.dither,
+            max_depth: settings.max_depth,
             threads: self.workers.count(),
             seconds: 0.0,
             cpu_seconds: 0.0,
@@ -187,7 +169,7 @@ impl Job<'_> {
             pools: Pools(pools.usage()),
         };
         let pixels = T::pixels(&tracer);
-        with_color!(args.color, C => self.draw_in_color::<T, C>(&pixels, &mut report))?;
+        with_color!(settings.color, C => self.draw_in_color::<T, C>(&pixels, &mut report))?;
         self.say_saved(&report);
         if args.json {
             report.set_work(&tracer.count_work(rows, self.workers));
@@ -202,7 +184,7 @@ impl Job<'_> {
         report: &mut RenderReport,
     ) -> Result<(), Failure> {
         let picture = Picture::new(pixels);
-        if self.args.dither {
+        if self.settings.dither {
             self.draw::<T, scanray::Dithered<C>>(picture.dithered(), report)
         } else {
             self.draw::<T, scanray::Exact<C>>(picture, report)
