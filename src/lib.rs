@@ -66,6 +66,7 @@
 //!
 //! * `parser` (default): scene text, through nom over bytes.
 //! * `bake`: scenes as Rust source, for build scripts.
+//! * `print`: scenes as text again, for programs that change scenes.
 #![no_std]
 #![deny(unsafe_code)]
 
@@ -105,12 +106,15 @@ mod scene;
 // What is known of a scene before the first ray.
 mod visibility;
 
-// Scenes from text, and to Rust source.
+// Scenes from text, to text and to Rust source.
 #[cfg(feature = "parser")]
 mod parser;
 
 #[cfg(feature = "bake")]
 mod bake;
+
+#[cfg(feature = "print")]
+mod print;
 
 // From ray to colour, from colour to display.
 mod tracer;
@@ -126,6 +130,8 @@ pub use light::Light;
 pub use material::{Interface, Material, MaterialDescription};
 #[cfg(feature = "parser")]
 pub use parser::{DecimalError, Excerpt, Expected, Found, FromDecimal, ParseError, Range, Report};
+#[cfg(feature = "print")]
+pub use print::{PrintError, print};
 pub use ray::{ObjectNumber, Ray, Side, origin_offset};
 pub use render::{
     Budget, DisplayColor, Dithered, Exact, Frame, Picture, PixelSource, Progress, Quantizer,
