@@ -5,6 +5,7 @@ use std::path::Path;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 
+use crate::commands::diff::DiffArgs;
 use crate::commands::inspect::InspectArgs;
 use crate::commands::render::RenderArgs;
 
@@ -23,9 +24,10 @@ Examples:
                                            see it as a small colour display shows it
   scanray render --display list            displays to choose from
   scanray inspect scene.txt                check what was read
+  scanray diff old.png new.png             how different two pictures are
   scanray help render                      all that render can do
 
-Exit codes: 0 fine, 2 usage, 3 scene, 4 files."
+Exit codes: 0 fine, 1 pictures differ, 2 usage, 3 scene, 4 files."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]
@@ -46,6 +48,8 @@ pub(crate) enum Command {
     Render(RenderArgs),
     /// Print a scene as it was read
     Inspect(InspectArgs),
+    /// Compare two pictures: numbers, a picture of the differences
+    Diff(DiffArgs),
 }
 
 impl Cli {

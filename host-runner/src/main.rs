@@ -3,6 +3,7 @@
 mod canvas;
 mod cli;
 mod commands;
+mod compare;
 mod console;
 mod displays;
 mod drawing;
@@ -22,12 +23,13 @@ mod scene_file;
 use std::process::ExitCode;
 
 use cli::{Cli, Command};
-use commands::{inspect, render};
+use commands::{diff, inspect, render};
 
 fn main() -> ExitCode {
     let result = match Cli::from_arguments() {
         Command::Render(args) => render::run(&args),
         Command::Inspect(args) => inspect::run(&args),
+        Command::Diff(args) => diff::run(&args),
     };
     result.unwrap_or_else(|failure| failure.report())
 }

@@ -51,7 +51,11 @@ pub(crate) fn places(
 }
 
 /// The place that `-o` names for one picture.
-fn single_place(output: &Path) -> Result<(Place, ImageFormat), Failure> {
+///
+/// # Errors
+///
+/// [`Failure::Usage`], and [`Failure::Files`] for a file that cannot be written.
+pub(crate) fn single_place(output: &Path) -> Result<(Place, ImageFormat), Failure> {
     if output.as_os_str() == "-" {
         if io::stdout().is_terminal() {
             return Err(Failure::Usage(

@@ -1,10 +1,14 @@
-//! Image files, written row by row.
+//! Image files: written row by row, read whole.
 
 mod png;
 mod ppm;
 
-use std::io::{self, Write};
+use std::fmt::Display;
+use std::fs::File;
+use std::io::{self, Read, Write};
 use std::path::Path;
+
+use crate::failure::Failure;
 
 /// A kind of image file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +33,63 @@ impl ImageFormat {
     }
 }
 
+/// A picture from a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Image {
+    /// Pixels in a row; at least 1.
+    pub(crate) width: usize,
+    /// Rows; at least 1.
+    pub(crate) height: usize,
+    /// Three bytes a pixel, rows from top to bottom.
+    pub(crate) rgb888: Vec<u8>,
+}
+
+/// No file is longer than this: no picture that is drawn here is (65,535² pixels would be), but nobody
+/// compares such pictures, and an endless file must not fill all of the memory.
+const MAX_FILE_BYTES: u64 = 4 << 30;
+
+impl Image {
+    /// Reads a PNG or PPM file, whatever its name; `-` is standard input.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure::Files`].
+    pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
+        let is_stdin = path.as_os_str() == "-";
+        let name = if is_stdin {
+            "<stdin>".into()
+        } else {
+            path.display().to_string()
+        };
+        let cannot = |why: &dyn Display| Failure::Files(format!("cannot read {name}: {why}"));
+        let mut bytes = Vec::new();
+        let input: &mut dyn Read = if is_stdin {
+            &mut io::stdin().lock()
+        } else {
+            &mut File::open(path).map_err(|error| cannot(&error))?
+        };
+        input
+            .take(MAX_FILE_BYTES)
+            .read_to_end(&mut bytes)
+            .map_err(|error| cannot(&error))?;
+        Self::decode(&bytes).map_err(|why| cannot(&why))
+    }
+
+    /// A picture from the bytes of a file.
+    ///
+    /// # Errors
+    ///
+    /// A sentence.
+    pub(crate) fn decode(bytes: &[u8]) -> Result<Self, String> {
+        match bytes {
+            [0x89, b'P', b'N', b'G', ..] => png::read(bytes),
+            [b'P', b'2' | b'3' | b'5' | b'6', ..] => ppm::read(bytes),
+            [] => Err("the file is empty".to_owned()),
+            _ => Err("this is neither a PNG nor a PPM picture".to_owned()),
+        }
+    }
+}
+
 /// Writes an image of `width` × `height` pixels: `rows` has as many, three bytes a pixel.
 ///
 /// # Errors
@@ -44,6 +105,27 @@ pub(crate) fn write(
         ImageFormat::Ppm => ppm::write(file, width, height, rows),
         ImageFormat::Png => png::write(file, width, height, rows),
     }
+}
+
+/// Writes a picture of any size.
+///
+/// # Errors
+///
+/// Those of `file`.
+pub(crate) fn write_whole(
+    format: ImageFormat,
+    file: &mut dyn Write,
+    image: &Image,
+) -> io::Result<()> {
+    let size = [image.width, image.height].map(u16::try_from);
+    let [Ok(width), Ok(height)] = size else {
+        return Err(io::Error::other("it would be larger than 65535 pixels"));
+    };
+    let mut rows = image
+        .rgb888
+        .chunks_exact(image.width * 3)
+        .map(<[u8]>::to_vec);
+    write(format, file, [width, height], &mut rows)
 }
 
 #[cfg(test)]
@@ -79,5 +161,25 @@ mod tests {
         let info = reader.next_frame(&mut pixels).unwrap();
         assert_eq!((info.width, info.height), (2, 2));
         assert_eq!(pixels, rows.concat());
+    }
+
+    #[test]
+    fn what_was_written_is_read() {
+        let rows = [[1, 2, 3, 32, 10, 35], [7, 8, 9, 250, 251, 252]];
+        for format in [ImageFormat::Ppm, ImageFormat::Png] {
+            let mut file = Vec::new();
+            let mut lines = rows.iter().map(|row| row.to_vec());
+            write(format, &mut file, [2, 2], &mut lines).unwrap();
+            let image = Image::decode(&file).unwrap();
+            assert_eq!((image.width, image.height), (2, 2));
+            assert_eq!(image.rgb888, rows.concat());
+            for cut in 0..file.len() {
+                let why = Image::decode(&file[..cut]);
+                // The last bytes of a PNG are its end marker, which holds no pixels.
+                let is_whole = format == ImageFormat::Png && cut + 20 > file.len();
+                assert!(is_whole || why.is_err(), "{format:?} {cut}");
+            }
+        }
+        assert!(Image::decode(b"GIF89a").unwrap_err().contains("neither"));
     }
 }

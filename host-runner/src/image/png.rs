@@ -1,8 +1,10 @@
 //! PNG, 8 bits a channel.
 
-use std::io::{self, Write};
+use std::io::{self, Cursor, Write};
 
-use png::{BitDepth, ColorType, Encoder};
+use png::{BitDepth, ColorType, Decoder, Encoder, Transformations};
+
+use super::Image;
 
 pub(super) fn write(
     file: &mut dyn Write,
@@ -20,4 +22,128 @@ pub(super) fn write(
     }
     stream.finish()?;
     Ok(png.finish()?)
+}
+
+/// Reads a PNG of any kind: grey and palettes become colours, 16 bits are cut to 8.
+///
+/// # Errors
+///
+/// A sentence, also for pixels that are not opaque: what they look like depends on what is behind.
+pub(super) fn read(bytes: &[u8]) -> Result<Image, String> {
+    let mut decoder = Decoder::new(Cursor::new(bytes));
+    decoder.set_transformations(Transformations::normalize_to_color8());
+    let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
+    let size = reader
+        .output_buffer_size()
+        .ok_or("the picture is too large for this machine")?;
+    let mut samples = vec![0; size];
+    let frame = reader
+        .next_frame(&mut samples)
+        .map_err(|error| error.to_string())?;
+    samples.truncate(frame.buffer_size());
+    let gray = |gray: u8| [gray; 3];
+    let (channels, has_alpha) = match frame.color_type {
+        ColorType::Grayscale => (1, false),
+        ColorType::GrayscaleAlpha => (2, true),
+        ColorType::Rgb => (3, false),
+        ColorType::Rgba => (4, true),
+        // Palettes are expanded.
+        ColorType::Indexed => return Err("the palette is missing".to_owned()),
+    };
+    let pixels = samples.chunks_exact(channels);
+    if has_alpha && pixels.clone().any(|pixel| pixel[channels - 1] != u8::MAX) {
+        return Err("it has transparent pixels; flatten it onto a colour first".to_owned());
+    }
+    let rgb888 = match channels {
+        3 => samples,
+        4 => pixels
+            .flat_map(|pixel| [pixel[0], pixel[1], pixel[2]])
+            .collect(),
+        _ => pixels.flat_map(|pixel| gray(pixel[0])).collect(),
+    };
+    Ok(Image {
+        width: frame.width as usize,
+        height: frame.height as usize,
+        rgb888,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn encode(color: ColorType, depth: BitDepth, palette: Option<&[u8]>, data: &[u8]) -> Vec<u8> {
+        let mut file = Vec::new();
+        let mut encoder = Encoder::new(&mut file, 2, 1);
+        encoder.set_color(color);
+        encoder.set_depth(depth);
+        if let Some(palette) = palette {
+            encoder.set_palette(palette.to_vec());
+        }
+        let mut writer = encoder.write_header().unwrap();
+        writer.write_image_data(data).unwrap();
+        writer.finish().unwrap();
+        file
+    }
+
+    #[test]
+    fn all_kinds_become_rgb888() {
+        use BitDepth::{Eight, One, Sixteen};
+        let colors = [1, 2, 3, 4, 5, 6];
+        let grays = [9, 9, 9, 200, 200, 200];
+        for (color, depth, palette, data, expected) in [
+            (ColorType::Rgb, Eight, None, &colors[..], colors),
+            (
+                ColorType::Rgba,
+                Eight,
+                None,
+                &[1, 2, 3, 255, 4, 5, 6, 255],
+                colors,
+            ),
+            (
+                ColorType::Rgb,
+                Sixteen,
+                None,
+                &[1, 0, 2, 0, 3, 0, 4, 0, 5, 0, 6, 0],
+                colors,
+            ),
+            (
+                ColorType::Indexed,
+                Eight,
+                Some(&[4, 5, 6, 1, 2, 3][..]),
+                &[1, 0],
+                colors,
+            ),
+            (ColorType::Grayscale, Eight, None, &[9, 200], grays),
+            (
+                ColorType::GrayscaleAlpha,
+                Eight,
+                None,
+                &[9, 255, 200, 255],
+                grays,
+            ),
+            (
+                ColorType::Grayscale,
+                One,
+                None,
+                &[0b0100_0000],
+                [0, 0, 0, 255, 255, 255],
+            ),
+        ] {
+            let image = read(&encode(color, depth, palette, data)).unwrap();
+            assert_eq!((image.width, image.height), (2, 1));
+            assert_eq!(image.rgb888, expected, "{color:?} {depth:?}");
+        }
+    }
+
+    #[test]
+    fn transparent_pixels_are_refused() {
+        let file = encode(
+            ColorType::GrayscaleAlpha,
+            BitDepth::Eight,
+            None,
+            &[9, 255, 0, 254],
+        );
+        assert!(read(&file).unwrap_err().contains("transparent"));
+    }
 }

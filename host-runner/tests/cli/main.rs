@@ -1,7 +1,9 @@
 //! The program as its users meet it: each test runs it in a folder of its own.
 
+mod diff;
 mod displays;
 mod errors;
+mod examples;
 mod files;
 mod inspect;
 mod program;
