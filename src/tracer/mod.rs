@@ -291,7 +291,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         let mut closest = Closest::NONE;
         if stage(NEEDS, Needs::SPHERES) {
             for sphere in members(self.scene.spheres, candidates.spheres) {
-                observer.test(TestKind::Sphere);
+                observer.test_object(Object::Sphere(sphere), ray, closest.t);
                 if let Some(t) = sphere.intersect(ray, closest.t)
                     && closest.yields_to(t, sphere.surface())
                 {
@@ -301,7 +301,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         }
         if stage(NEEDS, Needs::PLANES) {
             for plane in members(self.scene.planes, candidates.planes) {
-                observer.test(TestKind::Plane);
+                observer.test_object(Object::Plane(plane), ray, closest.t);
                 if let Some(t) = plane.intersect(ray, closest.t)
                     && closest.yields_to(t, plane.surface())
                 {
@@ -311,7 +311,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         }
         if stage(NEEDS, Needs::TRIANGLES) {
             for triangle in members(self.scene.triangles, candidates.triangles) {
-                observer.test(TestKind::Triangle);
+                observer.test_object(Object::Triangle(triangle), ray, closest.t);
                 if let Some((t, place)) = triangle.intersect(ray, closest.t)
                     && closest.yields_to(t, triangle.surface())
                 {
@@ -342,7 +342,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         };
         if stage(NEEDS, Needs::SPHERES) {
             for sphere in members(self.scene.spheres, candidates.spheres) {
-                observer.test(TestKind::Sphere);
+                observer.test_object(Object::Sphere(sphere), ray, t_max);
                 if sphere.occludes(ray, t_max) && casts_shadow(sphere.surface()) {
                     return true;
                 }
@@ -350,7 +350,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         }
         if stage(NEEDS, Needs::PLANES) {
             for plane in members(self.scene.planes, candidates.planes) {
-                observer.test(TestKind::Plane);
+                observer.test_object(Object::Plane(plane), ray, t_max);
                 if plane.occludes(ray, t_max) && casts_shadow(plane.surface()) {
                     return true;
                 }
@@ -358,7 +358,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         }
         if stage(NEEDS, Needs::TRIANGLES) {
             for triangle in members(self.scene.triangles, candidates.triangles) {
-                observer.test(TestKind::Triangle);
+                observer.test_object(Object::Triangle(triangle), ray, t_max);
                 if triangle.occludes(ray, t_max) && casts_shadow(triangle.surface()) {
                     return true;
                 }

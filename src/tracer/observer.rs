@@ -1,6 +1,7 @@
 //! A view into the tracer's work: counters, budgets, debugging. Without one it costs nothing.
 
 use crate::ray::Ray;
+use crate::scene::Object;
 
 /// Why a ray is cast.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,6 +39,18 @@ pub trait Observer<T> {
     #[inline(always)]
     fn test(&mut self, kind: TestKind) {
         let _ = kind;
+    }
+
+    /// A ray is about to be tested against this object, for a meeting at most `t_max` away. Unless it does
+    /// something else, it tells [`Observer::test`] of the kind.
+    #[inline(always)]
+    fn test_object(&mut self, object: Object<'_, T>, ray: &Ray<T>, t_max: T) {
+        let _ = (ray, t_max);
+        self.test(match object {
+            Object::Sphere(_) => TestKind::Sphere,
+            Object::Plane(_) => TestKind::Plane,
+            Object::Triangle(_) => TestKind::Triangle,
+        });
     }
 }
 
