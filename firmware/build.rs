@@ -2,6 +2,7 @@
 //! `../scenes/default.txt` unless it is set.
 //!
 //! `SCANRAY_WITHOUT` names a stage that `picture` leaves out although the scene needs it, to see what the stage costs.
+//! `SCANRAY_CUTOFF` is the cut-off of `cutoff`.
 
 use std::{env, fs, path::Path};
 
@@ -29,8 +30,11 @@ fn main() {
         "without.rs",
         format!("scanray::Needs::{without}").as_bytes(),
     );
+    let cutoff = env::var("SCANRAY_CUTOFF").unwrap_or_else(|_| "1.0 / 256.0".into());
+    place("cutoff.rs", cutoff.as_bytes());
 
     println!("cargo:rerun-if-changed={path}");
     println!("cargo:rerun-if-env-changed=SCANRAY_SCENE");
     println!("cargo:rerun-if-env-changed=SCANRAY_WITHOUT");
+    println!("cargo:rerun-if-env-changed=SCANRAY_CUTOFF");
 }

@@ -17,6 +17,11 @@ use crate::scalar::Scalar;
 /// Implemented for all colours of embedded-graphics. A channel with `levels` steps above 0 becomes
 /// `⌊levels·c + threshold⌋`; grey is the [luma](Color::luma). There is no gamma.
 pub trait DisplayColor: PixelColor {
+    /// A little less than the step between two levels of the finest channel, where 1 is the brightest:
+    /// 1/256 for 8 bits. A pixel that is darker by less is at most one level off, with dither too.
+    /// For black and white, which has but one step, the step of the shades that dither shows.
+    const LEVEL: f32;
+
     /// The display's colour for a linear colour with channels in 0…1 and a threshold in 0…1, which is ½
     /// without dither.
     fn from_linear<T: Scalar>(color: Color<T>, threshold: T) -> Self;
@@ -31,6 +36,9 @@ fn quantize<T: Scalar>(channel: T, levels: u8, threshold: T) -> u8 {
 macro_rules! rgb {
     ($($color:ty),*) => {$(
         impl DisplayColor for $color {
+            // No display has more levels of red or blue than of green.
+            const LEVEL: f32 = 1.0 / (Self::MAX_G as f32 + 1.0);
+
             #[inline(always)]
             fn from_linear<T: Scalar>(color: Color<T>, threshold: T) -> Self {
                 Self::new(
@@ -50,6 +58,8 @@ rgb!(
 macro_rules! gray {
     ($($color:ty: $levels:literal),*) => {$(
         impl DisplayColor for $color {
+            const LEVEL: f32 = 1.0 / ($levels as f32 + 1.0);
+
             #[inline(always)]
             fn from_linear<T: Scalar>(color: Color<T>, threshold: T) -> Self {
                 Self::new(quantize(color.luma(), $levels, threshold))
@@ -61,6 +71,8 @@ macro_rules! gray {
 gray!(Gray2: 3, Gray4: 15, Gray8: 255);
 
 impl DisplayColor for BinaryColor {
+    const LEVEL: f32 = 1.0 / 64.0;
+
     #[inline(always)]
     fn from_linear<T: Scalar>(color: Color<T>, threshold: T) -> Self {
         if color.luma() + threshold >= T::ONE {

@@ -23,10 +23,11 @@ macro_rules! stages {
 
             $($(#[$doc])* pub const $name: Self = Self(1 << $bit);)*
 
-            /// Every stage: for scenes that are only known on the device.
+            /// Every stage that a scene can need: for scenes that are only known on the device.
             pub const ALL: Self = Self(0 $(| 1 << $bit)*);
 
-            const NAMES: &'static [(Self, &'static str)] = &[$((Self::$name, $word)),*];
+            const NAMES: &'static [(Self, &'static str)] =
+                &[$((Self::$name, $word),)* (Self::CUTOFF, "cutoff")];
         }
     };
 }
@@ -59,6 +60,10 @@ stages! {
 }
 
 impl Needs {
+    /// Secondary rays that hardly show are left out: [`Tracer::with_cutoff`](crate::Tracer::with_cutoff).
+    /// No scene needs it, so it is not in [`Needs::ALL`].
+    pub const CUTOFF: Self = Self(1 << 31);
+
     /// No stage.
     pub const NONE: Self = Self(0);
 
@@ -69,7 +74,7 @@ impl Needs {
 
     /// The set of a number; bits that name no stage are dropped.
     pub const fn from_bits(bits: u32) -> Self {
-        Self(bits & Self::ALL.0)
+        Self(bits & (Self::ALL.0 | Self::CUTOFF.0))
     }
 
     /// Both sets together.

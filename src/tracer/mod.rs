@@ -1,5 +1,6 @@
 //! The tracer: from a ray to a linear colour.
 
+mod cutoff;
 mod observer;
 mod shade;
 mod stack;
@@ -18,7 +19,7 @@ use crate::scene::{Needs, Object, ObjectSet, Reach, Scene};
 use crate::shape::{Barycentric, Plane, Sphere, Surface, Triangle};
 use crate::vec3::Vec3;
 use crate::visibility::visible_in_row;
-use stack::{Branch, Frame, Stack};
+use stack::{Branch, Frame, Stack, Throughputs};
 
 /// How many secondary rays may follow one another unless the tracer is told otherwise.
 pub const DEFAULT_MAX_DEPTH: usize = 5;
@@ -57,6 +58,8 @@ pub struct Tracer<
     scene: Scene<'a, T>,
     resolution: Resolution,
     max_depth: usize,
+    /// Of no effect without [`Needs::CUTOFF`].
+    cutoff: T,
 }
 
 /// `max_depth` is larger than the stack the tracer was compiled for.
@@ -199,6 +202,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             } else {
                 DEFAULT_MAX_DEPTH
             },
+            cutoff: T::ZERO,
         }
     }
 
@@ -212,6 +216,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             } else {
                 FRAMES
             },
+            cutoff: self.cutoff,
         }
     }
 
@@ -399,6 +404,9 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         let mut ray = ray;
         let mut candidates = candidates;
         let mut kind = RayKind::Primary;
+        let mut throughput = T::ONE;
+        let mut allowance = self.cutoff;
+        let mut waiting = Throughputs::<T, STACK>::new();
         loop {
             observer.ray(kind, stack.len(), &ray);
             // The colour of the ray under way, once no secondary ray is left to cast for it.
@@ -408,9 +416,12 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                 Some(hit) => {
                     color = self.local_color(&ray, &hit, stack.len(), observer);
                     if stack.len() < self.max_depth {
-                        let refracted = self.refracted(&ray, &hit);
+                        let material = hit.material.description();
+                        let mut shows = |weight| self.shows(throughput, weight, &mut allowance);
+                        let mirrors = shows(material.reflection);
+                        let refracted = self.refracted(&ray, &hit, shows(material.refraction));
                         // Cast the mirror ray first and keep the refracted one for later.
-                        let (next, weight) = match self.mirrored(&ray, &hit) {
+                        let (next, weight) = match self.mirrored(&ray, &hit, mirrors) {
                             Some(mirrored) => {
                                 kind = RayKind::Reflected;
                                 ray = mirrored.ray;
@@ -433,6 +444,12 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                             };
                             // There is room, because `max_depth ≤ STACK`.
                             if stack.push(frame).is_ok() {
+                                if stage(NEEDS, Needs::CUTOFF) {
+                                    if next.is_some() {
+                                        let _ = waiting.push(throughput);
+                                    }
+                                    throughput = throughput * weight;
+                                }
                                 candidates = self.reach(ray.leaves).near;
                                 continue;
                             }
@@ -451,6 +468,11 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                     && let Some(branch) = frame.next.take()
                 {
                     frame.weight = branch.weight;
+                    if stage(NEEDS, Needs::CUTOFF)
+                        && let Some(at_hit) = waiting.pop()
+                    {
+                        throughput = at_hit * branch.weight;
+                    }
                     kind = RayKind::Refracted;
                     ray = branch.ray;
                     candidates = self.reach(ray.leaves).near;
@@ -499,11 +521,11 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         })
     }
 
-    /// The mirror ray of a hit, if its material has one.
+    /// The mirror ray of a hit, if its material has one and it shows.
     #[inline(always)]
-    fn mirrored(&self, ray: &Ray<T>, hit: &Hit<'a, T>) -> Option<Branch<T>> {
+    fn mirrored(&self, ray: &Ray<T>, hit: &Hit<'a, T>, shows: bool) -> Option<Branch<T>> {
         let weight = hit.material.description().reflection;
-        (stage(NEEDS, Needs::REFLECTION) && weight > T::ZERO).then(|| Branch {
+        (stage(NEEDS, Needs::REFLECTION) && weight > T::ZERO && shows).then(|| Branch {
             ray: Ray {
                 origin: hit.outside,
                 direction: ray.direction.reflect(hit.normal),
@@ -513,11 +535,11 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         })
     }
 
-    /// The refracted ray of a hit, if its material has one and it is not totally reflected.
+    /// The refracted ray of a hit, if its material has one, it shows and it is not totally reflected.
     #[inline(always)]
-    fn refracted(&self, ray: &Ray<T>, hit: &Hit<'a, T>) -> Option<Branch<T>> {
+    fn refracted(&self, ray: &Ray<T>, hit: &Hit<'a, T>, shows: bool) -> Option<Branch<T>> {
         let weight = hit.material.description().refraction;
-        if !(stage(NEEDS, Needs::REFRACTION) && weight > T::ZERO) {
+        if !(stage(NEEDS, Needs::REFRACTION) && weight > T::ZERO && shows) {
             return None;
         }
         Some(Branch {
@@ -616,7 +638,11 @@ macro_rules! specialize {
             pub const fn specialize<const STAGES: u32>(
                 self,
             ) -> Result<Tracer<'a, $scalar, STAGES, STACK>, MissingStages> {
-                let missing = self.scene.needs().without(Needs::from_bits(STAGES));
+                let mut needs = self.scene.needs();
+                if self.cutoff > 0.0 {
+                    needs = needs.union(Needs::CUTOFF);
+                }
+                let missing = needs.without(Needs::from_bits(STAGES));
                 if !missing.is_empty() {
                     return Err(MissingStages(missing));
                 }
@@ -624,6 +650,7 @@ macro_rules! specialize {
                     scene: self.scene,
                     resolution: self.resolution,
                     max_depth: self.max_depth,
+                    cutoff: self.cutoff,
                 })
             }
         }
@@ -636,8 +663,9 @@ specialize!(f64);
 /// A tracer for a `static` scene with only the stages the scene needs.
 ///
 /// `tracer_for!(SCENE)` compiles what the scene needs and frames for [`DEFAULT_MAX_DEPTH`];
-/// `tracer_for!(SCENE, stack = 8)` has 8 frames; `tracer_for!(SCENE, stages = S)` compiles exactly the
-/// stages `S`:
+/// `tracer_for!(SCENE, stack = 8)` has 8 frames; `tracer_for!(SCENE, cutoff = 1.0 / 256.0)` has a
+/// [cut-off](Tracer::with_cutoff), with a stack or without; `tracer_for!(SCENE, stages = S)` compiles
+/// exactly the stages `S`:
 ///
 /// ```
 /// # use scanray::*;
@@ -652,6 +680,9 @@ specialize!(f64);
 /// assert_eq!(tracer.stages(), Needs::SKY);
 /// let same = tracer_for!(EMPTY, stages = Needs::SKY);
 /// # assert_eq!(tracer.pixel(1, 1), same.pixel(1, 1));
+/// let faster = tracer_for!(EMPTY, cutoff = 1.0 / 256.0, stack = 8);
+/// # assert_eq!(tracer.pixel(1, 1), faster.pixel(1, 1));
+/// # assert_eq!((faster.cutoff(), faster.max_depth()), (1.0 / 256.0, 5));
 /// ```
 ///
 /// It does not compile when the scene needs a stage more, and the error names it: "the scene needs the
@@ -675,6 +706,17 @@ macro_rules! tracer_for {
     };
     ($scene:path, stack = $stack:expr) => {
         $crate::tracer_for!($scene, stages = $scene.needs(), stack = $stack)
+    };
+    ($scene:path, cutoff = $cutoff:expr) => {
+        $crate::tracer_for!($scene, cutoff = $cutoff, stack = $crate::DEFAULT_MAX_DEPTH)
+    };
+    ($scene:path, cutoff = $cutoff:expr, stack = $stack:expr) => {
+        $crate::tracer_for!(
+            $scene,
+            stages = $scene.needs().union($crate::Needs::CUTOFF),
+            stack = $stack
+        )
+        .with_compiled_cutoff($cutoff)
     };
     ($scene:path, stages = $stages:expr) => {
         $crate::tracer_for!($scene, stages = $stages, stack = $crate::DEFAULT_MAX_DEPTH)

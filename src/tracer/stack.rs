@@ -8,6 +8,10 @@ use crate::ray::Ray;
 /// The frames from the primary hit down to the ray under way, whose depth is their number.
 pub(super) type Stack<T, const CAPACITY: usize> = Vec<Frame<T>, CAPACITY>;
 
+/// For each refracted ray that waits, the throughput at its hit, with a cut-off alone: in the frames it
+/// would take room without one.
+pub(super) type Throughputs<T, const CAPACITY: usize> = Vec<T, CAPACITY>;
+
 /// A hit whose colour waits for a secondary ray.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame<T> {
