@@ -142,7 +142,7 @@ pub use scene::{
     Needs, Object, ObjectSet, Pool, PoolUse, PoolsMut, Reach, Scene, SceneError, ScenePools,
 };
 pub use tracer::{
-    DEFAULT_MAX_DEPTH, DepthError, MissingStages, Nearest, Observer, RayCount, RayKind, Scanline,
-    TestKind, Tracer, WorkCount,
+    DEFAULT_MAX_DEPTH, DepthError, LightAtHit, Meeting, MissingStages, Nearest, Observer, RayCount,
+    RayKind, Scanline, TestKind, Tracer, WorkCount,
 };
 pub use vec3::Vec3;

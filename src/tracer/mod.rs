@@ -5,7 +5,7 @@ mod observer;
 mod shade;
 mod stack;
 
-pub use observer::{Observer, RayCount, RayKind, TestKind, WorkCount};
+pub use observer::{LightAtHit, Meeting, Observer, RayCount, RayKind, TestKind, WorkCount};
 
 use core::fmt;
 
@@ -415,6 +415,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                 None => color = self.background(ray.direction),
                 Some(hit) => {
                     color = self.local_color(&ray, &hit, stack.len(), observer);
+                    observer.local_color(color);
                     if stack.len() < self.max_depth {
                         let material = hit.material.description();
                         let mut shows = |weight| self.shows(throughput, weight, &mut allowance);
@@ -460,6 +461,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             }
             // Hand the colour up, to the first frame that has a ray left to cast.
             loop {
+                observer.result(color);
                 let Some(frame) = stack.last_mut() else {
                     return color;
                 };
@@ -509,7 +511,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             -point.normal
         };
         let step = normal * point.offset;
-        Some(Hit {
+        let hit = Hit {
             facing: Side::new(surface.number, entering),
             beyond: Side::new(surface.number, !entering),
             material: self.material(surface)?,
@@ -518,7 +520,15 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             entering,
             outside: point.point + step,
             inside: point.point - step,
-        })
+        };
+        observer.meeting(&Meeting {
+            side: hit.facing,
+            t: closest.t,
+            point: point.point,
+            normal,
+            material: hit.material.description(),
+        });
+        Some(hit)
     }
 
     /// The mirror ray of a hit, if its material has one and it shows.

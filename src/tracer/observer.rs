@@ -1,7 +1,10 @@
 //! A view into the tracer's work: counters, budgets, debugging. Without one it costs nothing.
 
-use crate::ray::Ray;
+use crate::color::Color;
+use crate::material::MaterialDescription;
+use crate::ray::{Ray, Side};
 use crate::scene::Object;
+use crate::vec3::Vec3;
 
 /// Why a ray is cast.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,6 +28,39 @@ pub enum TestKind {
     Plane,
     /// Ray against triangle, bounding ball included.
     Triangle,
+}
+
+/// A meeting of a ray with an object.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Meeting<'a, T> {
+    /// The object's side that the ray comes from.
+    pub side: Side,
+    /// Distance along the ray.
+    pub t: T,
+    /// The point, projected back onto the surface.
+    pub point: Vec3<T>,
+    /// Unit normal on the ray's side.
+    pub normal: Vec3<T>,
+    /// What the object is made of.
+    pub material: &'a MaterialDescription<T>,
+}
+
+/// What becomes of a light at a hit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LightAtHit<T> {
+    /// It stands behind the surface, or in it.
+    Behind,
+    /// No light reaches the inside of the object that was hit; no ray is cast to find out.
+    Enclosed,
+    /// An object stands before it: the one that was tested last.
+    Blocked,
+    /// It adds these colours.
+    Reaches {
+        /// Diffuse light.
+        diffuse: Color<T>,
+        /// The highlight, if there is one.
+        specular: Option<Color<T>>,
+    },
 }
 
 /// Is told what the tracer does. Every method does nothing by default; `()` observes nothing.
@@ -51,6 +87,30 @@ pub trait Observer<T> {
             Object::Plane(_) => TestKind::Plane,
             Object::Triangle(_) => TestKind::Triangle,
         });
+    }
+
+    /// The ray that was cast last, shadow rays aside, meets an object.
+    #[inline(always)]
+    fn meeting(&mut self, meeting: &Meeting<'_, T>) {
+        let _ = meeting;
+    }
+
+    /// What becomes of the next light at that meeting.
+    #[inline(always)]
+    fn light(&mut self, light: LightAtHit<T>) {
+        let _ = light;
+    }
+
+    /// The meeting's colour without secondary rays, not clamped.
+    #[inline(always)]
+    fn local_color(&mut self, color: Color<T>) {
+        let _ = color;
+    }
+
+    /// The deepest ray under way sees this colour, and is done; its secondary rays were done before.
+    #[inline(always)]
+    fn result(&mut self, color: Color<T>) {
+        let _ = color;
     }
 }
 

@@ -1,6 +1,6 @@
 //! The colour of a hit by itself: ambient, diffuse and specular light with shadows.
 
-use super::{Hit, Observer, RayKind, Tracer, stage};
+use super::{Hit, LightAtHit, Observer, RayKind, Tracer, stage};
 use crate::color::Color;
 use crate::material::Material;
 use crate::ray::Ray;
@@ -21,7 +21,11 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         let material = hit.material.description();
         let mut color = self.scene.ambient_color(material);
         let reach = self.reach(hit.facing);
-        if !stage(NEEDS, Needs::LIGHT) || (stage(NEEDS, Needs::SHADOWS) && reach.shadowed) {
+        if !stage(NEEDS, Needs::LIGHT) {
+            return color;
+        }
+        if stage(NEEDS, Needs::SHADOWS) && reach.shadowed {
+            observer.light(LightAtHit::Enclosed);
             return color;
         }
         for light in self.scene.lights {
@@ -32,6 +36,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             // The distance is 0 only in a light that lies in the hit itself, and underflows only next
             // to it.
             if !(toward > T::ZERO && distance_squared > T::ZERO) {
+                observer.light(LightAtHit::Behind);
                 continue;
             }
             let distance = distance_squared.sqrt();
@@ -45,21 +50,27 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                 };
                 observer.ray(RayKind::Shadow, depth, &shadow);
                 if self.occluded_observed(&shadow, distance, reach.occluders, observer) {
+                    observer.light(LightAtHit::Blocked);
                     continue;
                 }
             }
             let cosine = toward * inverse;
             // Light first, then material: a factor ≤ 1 keeps the product finite, so that 0·∞ cannot
             // arise from bright lights on bright materials.
-            color = color + light.diffuse * cosine * material.diffuse;
+            let diffuse = light.diffuse * cosine * material.diffuse;
+            color = color + diffuse;
+            let mut specular = None;
             if stage(NEEDS, Needs::SPECULAR) && !material.specular.is_black() {
                 // R·V with R = 2(N·L)N − L and V = −d.
                 let alignment = T::TWO * cosine * hit.cosine + direction.dot(ray.direction);
                 if alignment > T::ZERO {
                     let highlight = self.phong_power(alignment, hit.material);
-                    color = color + light.specular * highlight * material.specular;
+                    let light = light.specular * highlight * material.specular;
+                    color = color + light;
+                    specular = Some(light);
                 }
             }
+            observer.light(LightAtHit::Reaches { diffuse, specular });
         }
         color
     }
