@@ -79,6 +79,11 @@ impl<P: PixelSource> PixelSource for &P {
 /// It is a [`Drawable`]: `Picture::new(&tracer).draw(&mut display)` draws row by row, each row with one
 /// [`DrawTarget::fill_contiguous`], without a buffer. Rows and pixels can also be had one by one, and
 /// [`Frame`](super::Frame) draws in instalments; all give the same bits.
+///
+/// What reaches the display's bus is the driver's choice. A driver with a `fill_contiguous` of its own, such as mipidsi
+/// (ILI9341, ST7789 …), sends one address window a row and then nothing but pixels, two bytes each in
+/// RGB565. One without it, such as ssd1306 in its buffered mode or embedded-graphics' `Framebuffer`, gets single pixels, keeps
+/// them in a buffer of its own and sends that when it is flushed.
 pub struct Picture<P, Q> {
     source: P,
     quantizer: PhantomData<Q>,
