@@ -5,6 +5,7 @@ use std::path::Path;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 
+use crate::commands::bake::BakeArgs;
 use crate::commands::diff::DiffArgs;
 use crate::commands::inspect::InspectArgs;
 use crate::commands::render::RenderArgs;
@@ -24,6 +25,7 @@ Examples:
                                            see it as a small colour display shows it
   scanray render --display list            displays to choose from
   scanray inspect scene.txt                check what was read
+  scanray bake scene.txt -o scene.rs       put it into a firmware's flash
   scanray diff old.png new.png             how different two pictures are
   scanray help render                      all that render can do
 
@@ -48,6 +50,8 @@ pub(crate) enum Command {
     Render(RenderArgs),
     /// Print a scene as it was read
     Inspect(InspectArgs),
+    /// Write a scene as Rust source, for a `static` in a firmware's flash
+    Bake(BakeArgs),
     /// Compare two pictures: numbers, a picture of the differences
     Diff(DiffArgs),
 }

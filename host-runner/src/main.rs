@@ -23,12 +23,13 @@ mod scene_file;
 use std::process::ExitCode;
 
 use cli::{Cli, Command};
-use commands::{diff, inspect, render};
+use commands::{bake, diff, inspect, render};
 
 fn main() -> ExitCode {
     let result = match Cli::from_arguments() {
         Command::Render(args) => render::run(&args),
         Command::Inspect(args) => inspect::run(&args),
+        Command::Bake(args) => bake::run(&args),
         Command::Diff(args) => diff::run(&args),
     };
     result.unwrap_or_else(|failure| failure.report())

@@ -1,4 +1,4 @@
-//! Where pictures go: files that appear whole or not at all, devices and pipes, standard output.
+//! Where pictures and texts go: files that appear whole or not at all, devices and pipes, standard output.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
@@ -32,9 +32,7 @@ impl Place {
         let cannot = |why: &dyn std::fmt::Display| Failure::file("write", name, why);
         let target = match fs::metadata(name) {
             Ok(old) if old.is_dir() => {
-                return Err(cannot(
-                    &"it is a folder; name a file that ends in .ppm or .png",
-                ));
+                return Err(cannot(&"it is a folder; name a file in it"));
             }
             Ok(old) if !old.is_file() => return Ok(Self::Device(name.to_owned())),
             Ok(old) if old.permissions().readonly() => {

@@ -1,5 +1,6 @@
 //! The program as its users meet it: each test runs it in a folder of its own.
 
+mod bake;
 mod diff;
 mod displays;
 mod errors;
