@@ -5,7 +5,7 @@ use core::fmt;
 use crate::color::Color;
 use crate::material::Material;
 use crate::scalar::Scalar;
-use crate::scene::{ObjectSet, Reach, Scene};
+use crate::scene::{NodeContent, ObjectSet, Reach, Scene, TreeEntry, TreeNode};
 use crate::shape::{Plane, Sphere, Surface, Triangle};
 use crate::vec3::Vec3;
 
@@ -102,6 +102,10 @@ impl<T: Scalar> fmt::Display for Baked<'_, Scene<'_, T>> {
         list(f, "triangles", scene.triangles)?;
         list(f, "materials", scene.materials)?;
         list(f, "sides", scene.sides)?;
+        writeln!(f, "    tree: ::scanray::Tree {{")?;
+        list(f, "nodes", scene.tree.nodes)?;
+        list(f, "entries", scene.tree.entries)?;
+        writeln!(f, "    }},")?;
         write!(f, "}}")
     }
 }
@@ -225,6 +229,37 @@ impl fmt::Display for Baked<'_, Reach> {
             Baked(near),
             Baked(occluders)
         )
+    }
+}
+
+impl<T: Scalar> fmt::Display for Baked<'_, TreeNode<T>> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let node = self.0;
+        write!(
+            f,
+            "::scanray::TreeNode::new({}, {}, ::scanray::NodeContent::",
+            Baked(&node.low()),
+            Baked(&node.high())
+        )?;
+        match node.content() {
+            NodeContent::Leaf { first, count } => {
+                write!(f, "Leaf {{ first: {first}, count: {count} }})")
+            }
+            NodeContent::Inner { first, axis } => {
+                write!(f, "Inner {{ first: {first}, axis: {axis} }})")
+            }
+        }
+    }
+}
+
+impl fmt::Display for Baked<'_, TreeEntry> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let shape = if self.0.is_triangle() {
+            "triangle"
+        } else {
+            "sphere"
+        };
+        write!(f, "::scanray::TreeEntry::{shape}({})", self.0.index())
     }
 }
 

@@ -33,7 +33,9 @@
 //! # What a scene does not need
 //!
 //! [`Scene::needs`](Scene) is a constant function; [`tracer_for!`] compiles only the stages that a
-//! `static` scene needs. At run time objects that a ray cannot meet are not tested, with the same bits.
+//! `static` scene needs. At run time objects that a ray cannot meet are not tested, with the same bits: in a
+//! small scene by lists of candidates, in a large one by a bounding-volume hierarchy ([`Tree`]), which is
+//! baked into flash or built in the pools if they have room for it.
 //!
 //! # Memory
 //!
@@ -139,7 +141,8 @@ pub use render::{
 };
 pub use scalar::Scalar;
 pub use scene::{
-    Needs, Object, ObjectSet, Pool, PoolUse, PoolsMut, Reach, Scene, SceneError, ScenePools,
+    Needs, NodeContent, Object, ObjectSet, Pool, PoolUse, PoolsMut, Reach, Scene, SceneError,
+    ScenePools, Tree, TreeEntry, TreeNode,
 };
 pub use tracer::{
     DEFAULT_MAX_DEPTH, DepthError, LightAtHit, Meeting, MissingStages, Nearest, Observer, RayCount,

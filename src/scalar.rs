@@ -51,6 +51,8 @@ pub trait Scalar:
     const MAX: Self;
     /// The smallest number above 0 with all its digits.
     const MIN_POSITIVE: Self;
+    /// The root of [`Scalar::MIN_POSITIVE`]: the smallest number whose square has all its digits.
+    const SMALLEST_TO_SQUARE: Self;
     /// The distance from 1 to the next larger number: 2⁻²³ or 2⁻⁵². Error bounds are multiples of it.
     const EPSILON: Self;
     /// `2^⌈p/2⌉ + 1` for a significand of `p` bits: Dekker's constant that splits a number in halves.
@@ -109,6 +111,7 @@ impl Scalar for f32 {
     const TWO: Self = 2.0;
     const MAX: Self = f32::MAX;
     const MIN_POSITIVE: Self = f32::MIN_POSITIVE;
+    const SMALLEST_TO_SQUARE: Self = f32::from_bits(64 << 23);
     const EPSILON: Self = f32::EPSILON;
     const SPLITTER: Self = 4097.0;
     const MAX_SQUARED_EXPONENT: u16 = 1024;
@@ -162,6 +165,7 @@ impl Scalar for f64 {
     const TWO: Self = 2.0;
     const MAX: Self = f64::MAX;
     const MIN_POSITIVE: Self = f64::MIN_POSITIVE;
+    const SMALLEST_TO_SQUARE: Self = f64::from_bits(512 << 52);
     const EPSILON: Self = f64::EPSILON;
     const SPLITTER: Self = 134_217_729.0;
     const MAX_SQUARED_EXPONENT: u16 = u16::MAX - 1;

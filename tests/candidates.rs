@@ -7,13 +7,14 @@ use common::scenes::{Model, Part, RoomyPools, Shape, load, names};
 use scanray::shape::ShapeError;
 use scanray::{
     Background, Camera, Color, FromDecimal, Light, MaterialDescription, ObjectSet, PoolsMut,
-    Resolution, Scalar, Scene, SceneError, ScenePools, Tracer, Vec3,
+    Resolution, Scalar, Scene, SceneError, ScenePools, Tracer, Tree, Vec3,
 };
 
 /// Draws a scene with its candidates and by brute force and compares all bits.
 fn compare<T: Scalar>(scene: Scene<'_, T>, resolution: Resolution, what: impl Fn() -> String) {
     let brute_force = Scene {
         sides: &[],
+        tree: Tree::NONE,
         ..scene
     };
     let with = Tracer::new(scene).with_resolution(resolution);

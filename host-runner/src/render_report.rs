@@ -47,6 +47,8 @@ pub(crate) struct Tests {
     sphere: u64,
     plane: u64,
     triangle: u64,
+    #[serde(rename = "box")]
+    boxes: u64,
     total: u64,
 }
 
@@ -68,6 +70,7 @@ impl RenderReport {
             sphere: work.sphere_tests,
             plane: work.plane_tests,
             triangle: work.triangle_tests,
+            boxes: work.box_tests,
             total: work.tests(),
         };
     }

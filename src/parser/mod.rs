@@ -25,11 +25,15 @@ impl<T: Scalar + FromDecimal> PoolsMut<'_, T> {
     ///
     /// [`ParseError`] for the first thing that is wrong; the pools are then empty.
     pub fn parse(&mut self, text: &[u8]) -> Result<Report, ParseError> {
+        let report = self.read(text)?;
+        self.prepare();
+        Ok(report)
+    }
+
+    fn read(&mut self, text: &[u8]) -> Result<Report, ParseError> {
         self.clear();
         let result = numeric::read(text, self);
-        if result.is_ok() {
-            self.prepare();
-        } else {
+        if result.is_err() {
             self.clear();
         }
         result
@@ -44,7 +48,8 @@ impl<
     const MATERIALS: usize,
     const LIGHTS: usize,
     const SIDES: usize,
-> ScenePools<T, SPHERES, PLANES, TRIANGLES, MATERIALS, LIGHTS, SIDES>
+    const TREE: usize,
+> ScenePools<T, SPHERES, PLANES, TRIANGLES, MATERIALS, LIGHTS, SIDES, TREE>
 {
     /// Replaces the scene in the pools by that of a text in the numeric dialect.
     ///
@@ -53,6 +58,8 @@ impl<
     /// [`ParseError`] for the first thing that is wrong; the pools are then empty. To keep an old
     /// picture until a new scene is known to be good, load into a second set of pools.
     pub fn parse(&mut self, text: &[u8]) -> Result<Report, ParseError> {
-        self.as_mut().parse(text)
+        let report = self.as_mut().read(text)?;
+        self.prepare();
+        Ok(report)
     }
 }

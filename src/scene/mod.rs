@@ -3,10 +3,12 @@
 mod needs;
 mod pools;
 mod reach;
+mod tree;
 
 pub use needs::Needs;
 pub use pools::{Pool, PoolUse, PoolsMut, SceneError, ScenePools};
 pub use reach::{ObjectSet, Reach};
+pub use tree::{NodeContent, Tree, TreeEntry, TreeNode};
 
 use crate::background::Background;
 use crate::camera::{Camera, Resolution};
@@ -43,6 +45,8 @@ pub struct Scene<'a, T = f32> {
     /// What rays can meet that leave each side of each object, by [`Side::index`](crate::Side::index);
     /// where there is no entry, anything.
     pub sides: &'a [Reach],
+    /// Of a large scene, what its spheres and triangles are found by.
+    pub tree: Tree<'a, T>,
 }
 
 /// An object of a scene, of any shape.

@@ -57,6 +57,8 @@ stages! {
     SKY = 10, "sky";
     /// A background of one colour.
     PLAIN_BACKGROUND = 11, "plain background";
+    /// The tree of a large scene.
+    TREE = 12, "tree";
 }
 
 impl Needs {
@@ -141,6 +143,7 @@ macro_rules! needs_of_scene {
                     .with_if(Needs::SPHERES, !self.spheres.is_empty())
                     .with_if(Needs::PLANES, !self.planes.is_empty())
                     .with_if(Needs::TRIANGLES, !self.triangles.is_empty())
+                    .with_if(Needs::TREE, self.tree.is_some())
                     .with_if(Needs::SKY, self.background.sky)
                     .with_if(Needs::PLAIN_BACKGROUND, !self.background.sky);
                 let mut bright = false;

@@ -4,7 +4,7 @@ use core::fmt;
 
 use heapless::{Vec, VecView};
 
-use super::{Object, Reach, Scene};
+use super::{Object, Reach, Scene, Tree, TreeEntry, TreeNode};
 use crate::background::Background;
 use crate::camera::{Camera, Resolution};
 use crate::light::Light;
@@ -19,9 +19,11 @@ const MATERIAL_LOOK_BACK: usize = 16;
 
 /// Pools for one scene, in RAM: a `static`, a local or a field.
 ///
-/// A full pool is an error, never a silent loss; only `SIDES`, the number of objects whose mutual
-/// visibility is kept ([`ScenePools::prepare`]), is for speed alone. The default capacities hold every scene of the
-/// repository's `scenes/` folder.
+/// A full pool is an error, never a silent loss; only two capacities are for speed alone
+/// ([`ScenePools::prepare`]): `SIDES`, the number of objects whose mutual visibility is kept, and `TREE`, the
+/// number of spheres and triangles that a [`Tree`] is built for, which takes 36 bytes each in `f32` (60 in `f64`) and
+/// pays from some 50 objects on. The default capacities hold every scene of the repository's `scenes/` folder,
+/// without a tree.
 #[derive(Clone, Debug)]
 pub struct ScenePools<
     T = f32,
@@ -31,6 +33,7 @@ pub struct ScenePools<
     const MATERIALS: usize = 16,
     const LIGHTS: usize = 1,
     const SIDES: usize = 48,
+    const TREE: usize = 0,
 > {
     settings: Settings<T>,
     spheres: Vec<Sphere<T>, SPHERES>,
@@ -39,6 +42,8 @@ pub struct ScenePools<
     materials: Vec<Material<T>, MATERIALS>,
     lights: Vec<Light<T>, LIGHTS>,
     sides: Vec<[Reach; 2], SIDES>,
+    nodes: Vec<TreeNode<T>, TREE>,
+    entries: Vec<TreeEntry, TREE>,
 }
 
 /// What a scene has one of.
@@ -159,7 +164,8 @@ impl<
     const MATERIALS: usize,
     const LIGHTS: usize,
     const SIDES: usize,
-> ScenePools<T, SPHERES, PLANES, TRIANGLES, MATERIALS, LIGHTS, SIDES>
+    const TREE: usize,
+> ScenePools<T, SPHERES, PLANES, TRIANGLES, MATERIALS, LIGHTS, SIDES, TREE>
 {
     /// Empty pools: a scene without objects and lights, of 0×0 pixels.
     pub const fn new() -> Self {
@@ -171,6 +177,8 @@ impl<
             materials: Vec::new(),
             lights: Vec::new(),
             sides: Vec::new(),
+            nodes: Vec::new(),
+            entries: Vec::new(),
         }
     }
 
@@ -187,6 +195,10 @@ impl<
             triangles: &self.triangles,
             materials: &self.materials,
             sides: self.sides.as_flattened(),
+            tree: Tree {
+                nodes: &self.nodes,
+                entries: &self.entries,
+            },
         }
     }
 
@@ -200,6 +212,8 @@ impl<
             materials: &mut self.materials,
             lights: &mut self.lights,
             sides: &mut self.sides,
+            nodes: &mut self.nodes,
+            entries: &mut self.entries,
         }
     }
 
@@ -231,7 +245,8 @@ impl<
     const MATERIALS: usize,
     const LIGHTS: usize,
     const SIDES: usize,
-> Default for ScenePools<T, SPHERES, PLANES, TRIANGLES, MATERIALS, LIGHTS, SIDES>
+    const TREE: usize,
+> Default for ScenePools<T, SPHERES, PLANES, TRIANGLES, MATERIALS, LIGHTS, SIDES, TREE>
 {
     fn default() -> Self {
         Self::new()
@@ -249,6 +264,8 @@ pub struct PoolsMut<'p, T> {
     materials: &'p mut VecView<Material<T>>,
     lights: &'p mut VecView<Light<T>>,
     sides: &'p mut VecView<[Reach; 2]>,
+    nodes: &'p mut VecView<TreeNode<T>>,
+    entries: &'p mut VecView<TreeEntry>,
 }
 
 impl<T: Scalar> PoolsMut<'_, T> {
@@ -260,7 +277,14 @@ impl<T: Scalar> PoolsMut<'_, T> {
         self.triangles.clear();
         self.materials.clear();
         self.lights.clear();
+        self.forget_visibility();
+    }
+
+    /// Removes what is only true of the objects and lights so far.
+    fn forget_visibility(&mut self) {
         self.sides.clear();
+        self.nodes.clear();
+        self.entries.clear();
     }
 
     /// Sets where the scene is seen from.
@@ -309,7 +333,7 @@ impl<T: Scalar> PoolsMut<'_, T> {
     ///
     /// [`SceneError::PoolFull`].
     pub fn add_light(&mut self, light: Light<T>) -> Result<(), SceneError> {
-        self.sides.clear();
+        self.forget_visibility();
         push(self.lights, light, Pool::Lights)
     }
 
@@ -327,7 +351,7 @@ impl<T: Scalar> PoolsMut<'_, T> {
         self.has_room(Pool::Spheres)?;
         let mut sphere = Sphere::new(center, radius, self.next_surface())?;
         sphere.set_material(self.share(material)?);
-        self.sides.clear();
+        self.forget_visibility();
         push(self.spheres, sphere, Pool::Spheres)
     }
 
@@ -345,7 +369,7 @@ impl<T: Scalar> PoolsMut<'_, T> {
         self.has_room(Pool::Planes)?;
         let mut plane = Plane::new(normal, distance, self.next_surface())?;
         plane.set_material(self.share(material)?);
-        self.sides.clear();
+        self.forget_visibility();
         push(self.planes, plane, Pool::Planes)
     }
 
@@ -362,13 +386,12 @@ impl<T: Scalar> PoolsMut<'_, T> {
         self.has_room(Pool::Triangles)?;
         let mut triangle = Triangle::new(vertices, self.next_surface())?;
         triangle.set_material(self.share(material)?);
-        self.sides.clear();
+        self.forget_visibility();
         push(self.triangles, triangle, Pool::Triangles)
     }
 
-    /// Fills in the sides of all objects, or of none if there is not enough room for all.
-    pub(crate) fn fill_sides(&mut self, sides: fn(&Scene<'_, T>, Object<'_, T>) -> [Reach; 2]) {
-        self.sides.clear();
+    /// The scene so far, and room for what is to be found out about it.
+    fn as_scene_and_visibility(&mut self) -> (Scene<'_, T>, Visibility<'_, T>) {
         let scene = Scene {
             camera: self.settings.camera,
             resolution: self.settings.resolution,
@@ -380,14 +403,48 @@ impl<T: Scalar> PoolsMut<'_, T> {
             triangles: self.triangles,
             materials: self.materials,
             sides: &[],
+            tree: Tree::NONE,
         };
-        if scene.object_count() > self.sides.capacity() {
+        let visibility = Visibility {
+            sides: self.sides,
+            nodes: self.nodes,
+            entries: self.entries,
+        };
+        (scene, visibility)
+    }
+
+    /// Fills in the sides of all objects, or of none if there is not enough room for all.
+    pub(crate) fn fill_sides(&mut self, sides: fn(&Scene<'_, T>, Object<'_, T>) -> [Reach; 2]) {
+        let (scene, room) = self.as_scene_and_visibility();
+        room.sides.clear();
+        if scene.object_count() > room.sides.capacity() {
             return;
         }
         for object in scene.objects() {
             // There is room for all.
-            let _ = self.sides.push(sides(&scene, object));
+            let _ = room.sides.push(sides(&scene, object));
         }
+    }
+
+    /// Fills in a tree of all spheres and triangles, or none if they are fewer than `fewest` or there is
+    /// not enough room for all.
+    pub(crate) fn fill_tree(
+        &mut self,
+        fewest: usize,
+        build: impl FnOnce(&Scene<'_, T>, &mut [TreeEntry], &mut VecView<TreeNode<T>>),
+    ) {
+        let (scene, room) = self.as_scene_and_visibility();
+        room.nodes.clear();
+        room.entries.clear();
+        let count = scene.spheres.len() + scene.triangles.len();
+        if count < fewest || count > room.entries.capacity() {
+            return;
+        }
+        let spheres = (0..scene.spheres.len()).map(|index| TreeEntry::sphere(index as u32));
+        let triangles = (0..scene.triangles.len()).map(|index| TreeEntry::triangle(index as u32));
+        // There is room for all.
+        room.entries.extend(spheres.chain(triangles));
+        build(&scene, room.entries, room.nodes);
     }
 
     /// The surface of the next object, its material still to be found.
@@ -415,6 +472,13 @@ impl<T: Scalar> PoolsMut<'_, T> {
         push(self.materials, Material::new(description), Pool::Materials)?;
         Ok(index)
     }
+}
+
+/// Room for what is found out about a scene.
+struct Visibility<'p, T> {
+    sides: &'p mut VecView<[Reach; 2]>,
+    nodes: &'p mut VecView<TreeNode<T>>,
+    entries: &'p mut VecView<TreeEntry>,
 }
 
 fn push<E>(entries: &mut VecView<E>, entry: E, pool: Pool) -> Result<(), SceneError> {

@@ -4,6 +4,7 @@ mod cutoff;
 mod observer;
 mod shade;
 mod stack;
+mod tree;
 
 pub use observer::{LightAtHit, Meeting, Observer, RayCount, RayKind, TestKind, WorkCount};
 
@@ -294,7 +295,11 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         observer: &mut impl Observer<T>,
     ) -> Closest<'a, T> {
         let mut closest = Closest::NONE;
-        if stage(NEEDS, Needs::SPHERES) {
+        let by_tree = self.has_tree();
+        if by_tree {
+            self.closest_in_tree(ray, &mut closest, observer);
+        }
+        if stage(NEEDS, Needs::SPHERES) && !by_tree {
             for sphere in members(self.scene.spheres, candidates.spheres) {
                 observer.test_object(Object::Sphere(sphere), ray, closest.t);
                 if let Some(t) = sphere.intersect(ray, closest.t)
@@ -314,7 +319,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                 }
             }
         }
-        if stage(NEEDS, Needs::TRIANGLES) {
+        if stage(NEEDS, Needs::TRIANGLES) && !by_tree {
             for triangle in members(self.scene.triangles, candidates.triangles) {
                 observer.test_object(Object::Triangle(triangle), ray, closest.t);
                 if let Some((t, place)) = triangle.intersect(ray, closest.t)
@@ -345,7 +350,11 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             Some(material) => material.casts_shadow(),
             None => true,
         };
-        if stage(NEEDS, Needs::SPHERES) {
+        let by_tree = self.has_tree();
+        if by_tree && self.occluded_in_tree(ray, t_max, casts_shadow, observer) {
+            return true;
+        }
+        if stage(NEEDS, Needs::SPHERES) && !by_tree {
             for sphere in members(self.scene.spheres, candidates.spheres) {
                 observer.test_object(Object::Sphere(sphere), ray, t_max);
                 if sphere.occludes(ray, t_max) && casts_shadow(sphere.surface()) {
@@ -361,7 +370,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                 }
             }
         }
-        if stage(NEEDS, Needs::TRIANGLES) {
+        if stage(NEEDS, Needs::TRIANGLES) && !by_tree {
             for triangle in members(self.scene.triangles, candidates.triangles) {
                 observer.test_object(Object::Triangle(triangle), ray, t_max);
                 if triangle.occludes(ray, t_max) && casts_shadow(triangle.surface()) {
@@ -684,7 +693,7 @@ specialize!(f64);
 ///     resolution: Resolution { width: 4, height: 3 },
 ///     ambient: 0.1,
 ///     background: Background { color: Color::new(0.5, 0.5, 1.0), sky: true },
-///     lights: &[], spheres: &[], planes: &[], triangles: &[], materials: &[], sides: &[],
+///     lights: &[], spheres: &[], planes: &[], triangles: &[], materials: &[], sides: &[], tree: Tree::NONE,
 /// };
 /// let tracer = tracer_for!(EMPTY);
 /// assert_eq!(tracer.stages(), Needs::SKY);
@@ -705,7 +714,7 @@ specialize!(f64);
 /// #     resolution: Resolution { width: 4, height: 3 },
 /// #     ambient: 0.1,
 /// #     background: Background { color: Color::new(0.5, 0.5, 1.0), sky: true },
-/// #     lights: &[], spheres: &[], planes: &[], triangles: &[], materials: &[], sides: &[],
+/// #     lights: &[], spheres: &[], planes: &[], triangles: &[], materials: &[], sides: &[], tree: Tree::NONE,
 /// # };
 /// let tracer = tracer_for!(EMPTY, stages = Needs::SPHERES);
 /// ```

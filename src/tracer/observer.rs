@@ -28,6 +28,8 @@ pub enum TestKind {
     Plane,
     /// Ray against triangle, bounding ball included.
     Triangle,
+    /// Ray against a box of the tree.
+    Box,
 }
 
 /// A meeting of a ray with an object.
@@ -144,6 +146,8 @@ pub struct WorkCount {
     pub plane_tests: u64,
     /// Tests against triangles.
     pub triangle_tests: u64,
+    /// Tests against boxes of the tree.
+    pub box_tests: u64,
 }
 
 impl WorkCount {
@@ -154,7 +158,7 @@ impl WorkCount {
 
     /// Tests of all kinds.
     pub fn tests(&self) -> u64 {
-        self.sphere_tests + self.plane_tests + self.triangle_tests
+        self.sphere_tests + self.plane_tests + self.triangle_tests + self.box_tests
     }
 
     /// Adds the counts of another part of the picture.
@@ -166,6 +170,7 @@ impl WorkCount {
         self.sphere_tests += other.sphere_tests;
         self.plane_tests += other.plane_tests;
         self.triangle_tests += other.triangle_tests;
+        self.box_tests += other.box_tests;
     }
 }
 
@@ -184,6 +189,7 @@ impl<T> Observer<T> for WorkCount {
             TestKind::Sphere => &mut self.sphere_tests,
             TestKind::Plane => &mut self.plane_tests,
             TestKind::Triangle => &mut self.triangle_tests,
+            TestKind::Box => &mut self.box_tests,
         } += 1;
     }
 }

@@ -1,4 +1,4 @@
-//! Who can meet whom: objects that a ray cannot meet are not tested.
+//! Who can meet whom: objects that a ray cannot meet are not tested. (Large scenes: [`tree`].)
 //!
 //! The tracer asks for the *candidates* of a ray that leaves a given place (a row of the camera, a side
 //! of an object, a side towards the lights) and tests only those. A set of candidates may be too large,
@@ -16,11 +16,13 @@
 
 mod row;
 mod side;
+mod tree;
 
 pub(crate) use row::visible_in_row;
+pub(crate) use tree::Walk;
 
 use crate::scalar::Scalar;
-use crate::scene::{Object, ObjectSet, Scene, ScenePools};
+use crate::scene::{Object, ObjectSet, PoolsMut, Scene, ScenePools};
 use crate::vec3::Vec3;
 
 /// A ball around a bounded object.
@@ -83,6 +85,14 @@ fn collect<T: Scalar>(
     set
 }
 
+impl<T: Scalar> PoolsMut<'_, T> {
+    /// See [`ScenePools::prepare`].
+    pub fn prepare(&mut self) {
+        self.find_sides();
+        self.build_tree();
+    }
+}
+
 impl<
     T: Scalar,
     const SPHERES: usize,
@@ -91,13 +101,20 @@ impl<
     const MATERIALS: usize,
     const LIGHTS: usize,
     const SIDES: usize,
-> ScenePools<T, SPHERES, PLANES, TRIANGLES, MATERIALS, LIGHTS, SIDES>
+    const TREE: usize,
+> ScenePools<T, SPHERES, PLANES, TRIANGLES, MATERIALS, LIGHTS, SIDES, TREE>
 {
-    /// Finds out which objects can meet, if the pools have room for that: the same picture in less time.
+    /// Finds out which objects can meet, and builds the tree of a large scene, if the pools have room for
+    /// that: the same picture in less time.
     ///
     /// Loading a scene text does this; call it after adding objects by hand. Adding another one undoes
     /// it.
     pub fn prepare(&mut self) {
-        self.as_mut().prepare();
+        let mut pools = self.as_mut();
+        pools.find_sides();
+        // Not compiled for pools without room.
+        if const { TREE > 0 } {
+            pools.build_tree();
+        }
     }
 }

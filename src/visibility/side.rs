@@ -8,8 +8,8 @@ use crate::shape::{Plane, Triangle};
 use crate::vec3::Vec3;
 
 impl<T: Scalar> PoolsMut<'_, T> {
-    /// See [`ScenePools::prepare`](crate::ScenePools::prepare).
-    pub fn prepare(&mut self) {
+    /// Fills in the sides of all objects, if there is room for them.
+    pub(super) fn find_sides(&mut self) {
         self.fill_sides(sides);
     }
 }

@@ -8,7 +8,7 @@ use fearless_simd::Level;
 use scanray::shape::{Sphere, Surface};
 use scanray::{
     Background, Camera, Color, Exact, Light, Material, MaterialDescription, Picture, Resolution,
-    Scene, SceneError, ScenePools, Tracer, Vec3,
+    Scene, SceneError, ScenePools, Tracer, Tree, Vec3,
 };
 
 use super::PacketTracer;
@@ -204,6 +204,7 @@ fn draws_objects_without_material_and_with_any_numbers() {
         triangles: &[],
         materials: &materials,
         sides: &[],
+        tree: Tree::NONE,
     };
     assert_same("without material", scene, 33, 21, 5);
 }

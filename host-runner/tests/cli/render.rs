@@ -225,7 +225,7 @@ fn json_tells_what_the_picture_took() {
     let rays = ["primary", "reflected", "refracted", "shadow"];
     assert_eq!(number("/rays/total"), sum("rays", &rays));
     assert!(rays.iter().all(|kind| number(&format!("/rays/{kind}")) > 0));
-    let tests = ["sphere", "plane", "triangle"];
+    let tests = ["sphere", "plane", "triangle", "box"];
     assert_eq!(number("/tests/total"), sum("tests", &tests));
     assert!(number("/tests/sphere") > 0);
     for (pool, used) in [

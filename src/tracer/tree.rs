@@ -1,0 +1,86 @@
+//! Nearest hits and shadows by the tree of a large scene.
+
+use super::{Closest, Observer, TestKind, Tracer, stage};
+use crate::ray::Ray;
+use crate::scalar::Scalar;
+use crate::scene::Needs;
+use crate::shape::Surface;
+use crate::visibility::Walk;
+
+impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, STACK> {
+    /// Whether spheres and triangles are found by a tree.
+    #[inline(always)]
+    pub(super) fn has_tree(&self) -> bool {
+        stage(NEEDS, Needs::TREE) && self.scene.tree.is_some()
+    }
+
+    /// Makes the closest sphere or triangle the closest object.
+    #[inline(never)]
+    pub(super) fn closest_in_tree(
+        &self,
+        ray: &Ray<T>,
+        closest: &mut Closest<'a, T>,
+        observer: &mut impl Observer<T>,
+    ) {
+        let mut walk = Walk::new(self.scene.tree, ray);
+        while let Some(leaf) = walk.next_leaf(closest.t, || observer.test(TestKind::Box)) {
+            for entry in leaf {
+                if !entry.is_triangle() {
+                    if stage(NEEDS, Needs::SPHERES)
+                        && let Some(sphere) = self.scene.spheres.get(entry.index())
+                    {
+                        observer.test(TestKind::Sphere);
+                        if let Some(t) = sphere.intersect(ray, closest.t)
+                            && closest.yields_to(t, sphere.surface())
+                        {
+                            (closest.sphere, closest.triangle) = (Some(sphere), None);
+                        }
+                    }
+                } else if stage(NEEDS, Needs::TRIANGLES)
+                    && let Some(triangle) = self.scene.triangles.get(entry.index())
+                {
+                    observer.test(TestKind::Triangle);
+                    if let Some((t, place)) = triangle.intersect(ray, closest.t)
+                        && closest.yields_to(t, triangle.surface())
+                    {
+                        (closest.sphere, closest.triangle) = (None, Some((triangle, place)));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Whether a sphere or triangle that casts a shadow lies on the ray within `0 < t < t_max`.
+    #[inline(never)]
+    pub(super) fn occluded_in_tree(
+        &self,
+        ray: &Ray<T>,
+        t_max: T,
+        casts_shadow: impl Fn(Surface) -> bool,
+        observer: &mut impl Observer<T>,
+    ) -> bool {
+        let mut walk = Walk::new(self.scene.tree, ray);
+        while let Some(leaf) = walk.next_leaf(t_max, || observer.test(TestKind::Box)) {
+            for entry in leaf {
+                if !entry.is_triangle() {
+                    if stage(NEEDS, Needs::SPHERES)
+                        && let Some(sphere) = self.scene.spheres.get(entry.index())
+                    {
+                        observer.test(TestKind::Sphere);
+                        if sphere.occludes(ray, t_max) && casts_shadow(sphere.surface()) {
+                            return true;
+                        }
+                    }
+                } else if stage(NEEDS, Needs::TRIANGLES)
+                    && let Some(triangle) = self.scene.triangles.get(entry.index())
+                {
+                    observer.test(TestKind::Triangle);
+                    if triangle.occludes(ray, t_max) && casts_shadow(triangle.surface()) {
+                        return true;
+                    }
+                }
+            }
+        }
+        false
+    }
+}
