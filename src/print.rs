@@ -262,6 +262,7 @@ mod tests {
             triangles: &[],
             materials: &[],
             sides: &[],
+            tree: crate::scene::Tree::NONE,
         };
         assert_eq!(
             print(&scene).err(),

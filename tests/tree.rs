@@ -264,7 +264,7 @@ fn compare_crowds<T: Scalar>(seed: u64, scenes: usize) {
         let crowd = Crowd::<T>::new(&random);
         let scene = crowd.pools.as_scene();
         assert!(scene.tree.is_some());
-        let by_tree = Tracer::new(scene);
+        let by_tree = Tracer::new(scene).with_tree();
         let brute_force = Tracer::new(Scene {
             tree: Tree::NONE,
             ..scene
@@ -347,7 +347,7 @@ fn pictures_are_those_of_brute_force() {
             width: 24,
             height: 18,
         };
-        let by_tree = Tracer::new(scene).with_resolution(size);
+        let by_tree = Tracer::new(scene).with_tree().with_resolution(size);
         let brute_force = Scene {
             tree: Tree::NONE,
             ..scene
@@ -369,7 +369,7 @@ fn pictures_are_those_of_brute_force() {
 fn rays_that_are_none_meet_nothing() {
     let random = Random::of_test(4);
     let crowd = Crowd::<f32>::new(&random);
-    let tracer = Tracer::new(crowd.pools.as_scene());
+    let tracer = Tracer::new(crowd.pools.as_scene()).with_tree();
     let numbers = [f32::NAN, f32::INFINITY, -f32::INFINITY, 0.0, 1e38, 1e-45];
     for _ in 0..2000 {
         let number = || numbers[random.below(numbers.len())];

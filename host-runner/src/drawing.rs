@@ -74,6 +74,7 @@ impl<'a, T: Scalar> HostTracer<'a, T> {
         max_depth: usize,
     ) -> Result<Self, Failure> {
         Tracer::new(scene)
+            .with_tree()
             .with_stack()
             .with_resolution(resolution)
             .with_max_depth(max_depth)

@@ -23,7 +23,7 @@ macro_rules! stages {
 
             $($(#[$doc])* pub const $name: Self = Self(1 << $bit);)*
 
-            /// Every stage that a scene can need: for scenes that are only known on the device.
+            /// Every stage that a scene can need: for scenes that are only known on the device, however large.
             pub const ALL: Self = Self(0 $(| 1 << $bit)*);
 
             const NAMES: &'static [(Self, &'static str)] =
@@ -65,6 +65,9 @@ impl Needs {
     /// Secondary rays that hardly show are left out: [`Tracer::with_cutoff`](crate::Tracer::with_cutoff).
     /// No scene needs it, so it is not in [`Needs::ALL`].
     pub const CUTOFF: Self = Self(1 << 31);
+
+    /// Every stage but the tree: for scenes that are only known on the device, in pools without room for a tree.
+    pub const ALL_BUT_TREE: Self = Self::ALL.without(Self::TREE);
 
     /// No stage.
     pub const NONE: Self = Self(0);

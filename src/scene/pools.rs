@@ -22,7 +22,7 @@ const MATERIAL_LOOK_BACK: usize = 16;
 /// A full pool is an error, never a silent loss; only two capacities are for speed alone
 /// ([`ScenePools::prepare`]): `SIDES`, the number of objects whose mutual visibility is kept, and `TREE`, the
 /// number of spheres and triangles that a [`Tree`] is built for, which takes 36 bytes each in `f32` (60 in `f64`) and
-/// pays from some 50 objects on. The default capacities hold every scene of the repository's `scenes/` folder,
+/// pays from some 50 objects on, with a tracer that uses it ([`Tracer::with_tree`](crate::Tracer::with_tree)). The default capacities hold every scene of the repository's `scenes/` folder,
 /// without a tree.
 #[derive(Clone, Debug)]
 pub struct ScenePools<

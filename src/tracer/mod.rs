@@ -34,9 +34,9 @@ const fn stage(needs: u32, stage: Needs) -> bool {
 /// Traces rays through a scene.
 ///
 /// `NEEDS` are the stages that are compiled, `STACK` is the number of frames that stand for the
-/// recursion. Neither is written by hand: [`Tracer::new`] compiles all stages for
+/// recursion. Neither is written by hand: [`Tracer::new`] compiles all stages that a small scene may need for
 /// [`DEFAULT_MAX_DEPTH`], [`tracer_for!`](crate::tracer_for) those that a `static` scene needs, and
-/// methods change the rest.
+/// methods change the rest. For pools with room for a tree there is [`Tracer::with_tree`].
 ///
 /// ```
 /// use scanray::{ScenePools, Tracer};
@@ -53,7 +53,7 @@ const fn stage(needs: u32, stage: Needs) -> bool {
 pub struct Tracer<
     'a,
     T = f32,
-    const NEEDS: u32 = { Needs::ALL.bits() },
+    const NEEDS: u32 = { Needs::ALL_BUT_TREE.bits() },
     const STACK: usize = DEFAULT_MAX_DEPTH,
 > {
     scene: Scene<'a, T>,
@@ -184,9 +184,22 @@ impl<T: Scalar> Closest<'_, T> {
 }
 
 impl<'a, T: Scalar> Tracer<'a, T> {
-    /// A tracer with all stages, [`DEFAULT_MAX_DEPTH`] and the scene's own resolution.
+    /// A tracer with all stages but the tree, [`DEFAULT_MAX_DEPTH`] and the scene's own resolution.
     pub const fn new(scene: Scene<'a, T>) -> Self {
         Self::with_stages(scene)
+    }
+}
+
+impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Needs::ALL_BUT_TREE.bits() }, STACK> {
+    /// The same tracer, to draw large scenes the faster way: by the tree that the scene has if its pools
+    /// have room for one ([`ScenePools`](crate::ScenePools)). Without this every ray is tested against
+    /// every object of such a scene, with the same bits; other scenes are drawn as before.
+    pub const fn with_tree(self) -> Tracer<'a, T, { Needs::ALL.bits() }, STACK> {
+        Tracer {
+            scene: self.scene,
+            resolution: self.resolution,
+            max_depth: self.max_depth,
+        }
     }
 }
 

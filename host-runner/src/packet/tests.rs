@@ -37,6 +37,7 @@ fn levels() -> Vec<Level> {
 /// Compares rows of a picture with the core's pixels.
 fn assert_same(name: &str, scene: Scene<'_>, width: u16, height: u16, max_depth: usize) {
     let tracer = Tracer::new(scene)
+        .with_tree()
         .with_stack::<STACK>()
         .with_resolution(Resolution { width, height })
         .with_max_depth(max_depth)
@@ -105,7 +106,9 @@ fn draws_whole_pictures_to_the_bit() {
 #[test]
 fn draws_parts_of_rows() {
     let pools = load("default");
-    let tracer = Tracer::new(pools.as_scene()).with_stack::<STACK>();
+    let tracer = Tracer::new(pools.as_scene())
+        .with_tree()
+        .with_stack::<STACK>();
     let packets = PacketTracer::new(tracer);
     let mut part = [Color::default(); 13];
     packets.row(391, 300, &mut part);
@@ -119,6 +122,7 @@ fn draws_parts_of_rows() {
 fn draws_a_picture_from_several_threads() {
     let pools = load("reflective");
     let tracer = Tracer::new(pools.as_scene())
+        .with_tree()
         .with_stack::<STACK>()
         .with_resolution(Resolution {
             width: 64,
