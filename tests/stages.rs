@@ -25,8 +25,8 @@ const COMMON: Needs = Needs::SPHERES
 fn draws_with<const NEEDS: u32>(name: &str) {
     let pools = load::<f32>(name);
     let all = Tracer::new(pools.as_scene()).with_resolution(SIZE);
-    assert_eq!(all.stages(), Needs::ALL_BUT_TREE);
-    assert_eq!(all.with_tree().stages(), Needs::ALL);
+    assert_eq!(all.stages(), Needs::ALL);
+    assert_eq!(all.with_tree().stages(), Needs::ALL.union(Needs::TREE));
     assert_eq!(pools.as_scene().needs(), Needs::from_bits(NEEDS), "{name}");
     let few = all.specialize::<NEEDS>().unwrap();
     for y in 0..SIZE.height {

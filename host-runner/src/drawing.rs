@@ -60,7 +60,7 @@ impl Workers {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HostTracer<'a, T>(AllStages<'a, T>);
 
-type AllStages<'a, T> = Tracer<'a, T, { Needs::ALL.bits() }, MAX_DEPTH>;
+type AllStages<'a, T> = Tracer<'a, T, { Needs::ALL.union(Needs::TREE).bits() }, MAX_DEPTH>;
 
 impl<'a, T: Scalar> HostTracer<'a, T> {
     /// A tracer for a picture of a scene.

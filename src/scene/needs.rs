@@ -23,11 +23,11 @@ macro_rules! stages {
 
             $($(#[$doc])* pub const $name: Self = Self(1 << $bit);)*
 
-            /// Every stage that a scene can need: for scenes that are only known on the device, however large.
+            /// Every stage that a scene can need that has no tree: for scenes that are only known on the device.
             pub const ALL: Self = Self(0 $(| 1 << $bit)*);
 
             const NAMES: &'static [(Self, &'static str)] =
-                &[$((Self::$name, $word),)* (Self::CUTOFF, "cutoff")];
+                &[$((Self::$name, $word),)* (Self::TREE, "tree"), (Self::CUTOFF, "cutoff")];
         }
     };
 }
@@ -57,8 +57,6 @@ stages! {
     SKY = 10, "sky";
     /// A background of one colour.
     PLAIN_BACKGROUND = 11, "plain background";
-    /// The tree of a large scene.
-    TREE = 12, "tree";
 }
 
 impl Needs {
@@ -66,8 +64,9 @@ impl Needs {
     /// No scene needs it, so it is not in [`Needs::ALL`].
     pub const CUTOFF: Self = Self(1 << 31);
 
-    /// Every stage but the tree: for scenes that are only known on the device, in pools without room for a tree.
-    pub const ALL_BUT_TREE: Self = Self::ALL.without(Self::TREE);
+    /// The tree of a large scene: [`Tracer::with_tree`](crate::Tracer::with_tree). Pools have one only if they
+    /// have room for it, so it is not in [`Needs::ALL`].
+    pub const TREE: Self = Self(1 << 30);
 
     /// No stage.
     pub const NONE: Self = Self(0);
@@ -79,7 +78,7 @@ impl Needs {
 
     /// The set of a number; bits that name no stage are dropped.
     pub const fn from_bits(bits: u32) -> Self {
-        Self(bits & (Self::ALL.0 | Self::CUTOFF.0))
+        Self(bits & (Self::ALL.0 | Self::TREE.0 | Self::CUTOFF.0))
     }
 
     /// Both sets together.

@@ -8,12 +8,15 @@
 //! in the order of the depth-first walk, a ray whose throughput still fits into it is not cast and uses
 //! it up. The pixel then loses less than its allowance, whatever the scene and the depth.
 
-use super::{Tracer, stage};
+use super::{ALL_AND_TREE, Tracer, stage};
 use crate::scalar::Scalar;
 use crate::scene::Needs;
 
 /// Every stage and the cut-off.
 const ALL_AND_CUTOFF: u32 = Needs::ALL.union(Needs::CUTOFF).bits();
+
+/// The same and the tree.
+const TREE_AND_CUTOFF: u32 = Needs::from_bits(ALL_AND_TREE).union(Needs::CUTOFF).bits();
 
 impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Needs::ALL.bits() }, STACK> {
     /// The same tracer that does not cast the secondary rays that hardly show: no channel of a pixel
@@ -36,6 +39,18 @@ impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Needs::ALL.bits() }, STA
     /// assert!(tracer.stages().contains(Needs::CUTOFF));
     /// ```
     pub const fn with_cutoff(self, cutoff: T) -> Tracer<'a, T, ALL_AND_CUTOFF, STACK> {
+        Tracer {
+            scene: self.scene,
+            resolution: self.resolution,
+            max_depth: self.max_depth,
+            cutoff,
+        }
+    }
+}
+
+impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, ALL_AND_TREE, STACK> {
+    /// The cut-off of a tracer without the tree, for one with it.
+    pub const fn with_cutoff(self, cutoff: T) -> Tracer<'a, T, TREE_AND_CUTOFF, STACK> {
         Tracer {
             scene: self.scene,
             resolution: self.resolution,

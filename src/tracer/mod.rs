@@ -25,6 +25,9 @@ use stack::{Branch, Frame, Stack, Throughputs};
 /// How many secondary rays may follow one another unless the tracer is told otherwise.
 pub const DEFAULT_MAX_DEPTH: usize = 5;
 
+/// Every stage of a small scene, and the tree.
+const ALL_AND_TREE: u32 = Needs::ALL.union(Needs::TREE).bits();
+
 /// Whether a stage is compiled.
 #[inline(always)]
 const fn stage(needs: u32, stage: Needs) -> bool {
@@ -53,7 +56,7 @@ const fn stage(needs: u32, stage: Needs) -> bool {
 pub struct Tracer<
     'a,
     T = f32,
-    const NEEDS: u32 = { Needs::ALL_BUT_TREE.bits() },
+    const NEEDS: u32 = { Needs::ALL.bits() },
     const STACK: usize = DEFAULT_MAX_DEPTH,
 > {
     scene: Scene<'a, T>,
@@ -190,15 +193,18 @@ impl<'a, T: Scalar> Tracer<'a, T> {
     }
 }
 
-impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Needs::ALL_BUT_TREE.bits() }, STACK> {
+impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Needs::ALL.bits() }, STACK> {
     /// The same tracer, to draw large scenes the faster way: by the tree that the scene has if its pools
     /// have room for one ([`ScenePools`](crate::ScenePools)). Without this every ray is tested against
     /// every object of such a scene, with the same bits; other scenes are drawn as before.
-    pub const fn with_tree(self) -> Tracer<'a, T, { Needs::ALL.bits() }, STACK> {
+    ///
+    /// A [cut-off](Tracer::with_cutoff) is asked for after the tree.
+    pub const fn with_tree(self) -> Tracer<'a, T, ALL_AND_TREE, STACK> {
         Tracer {
             scene: self.scene,
             resolution: self.resolution,
             max_depth: self.max_depth,
+            cutoff: self.cutoff,
         }
     }
 }

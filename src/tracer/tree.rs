@@ -3,7 +3,7 @@
 use super::{Closest, Observer, TestKind, Tracer, stage};
 use crate::ray::Ray;
 use crate::scalar::Scalar;
-use crate::scene::Needs;
+use crate::scene::{Needs, Object};
 use crate::shape::Surface;
 use crate::visibility::Walk;
 
@@ -29,7 +29,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                     if stage(NEEDS, Needs::SPHERES)
                         && let Some(sphere) = self.scene.spheres.get(entry.index())
                     {
-                        observer.test(TestKind::Sphere);
+                        observer.test_object(Object::Sphere(sphere), ray, closest.t);
                         if let Some(t) = sphere.intersect(ray, closest.t)
                             && closest.yields_to(t, sphere.surface())
                         {
@@ -39,7 +39,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                 } else if stage(NEEDS, Needs::TRIANGLES)
                     && let Some(triangle) = self.scene.triangles.get(entry.index())
                 {
-                    observer.test(TestKind::Triangle);
+                    observer.test_object(Object::Triangle(triangle), ray, closest.t);
                     if let Some((t, place)) = triangle.intersect(ray, closest.t)
                         && closest.yields_to(t, triangle.surface())
                     {
@@ -66,7 +66,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                     if stage(NEEDS, Needs::SPHERES)
                         && let Some(sphere) = self.scene.spheres.get(entry.index())
                     {
-                        observer.test(TestKind::Sphere);
+                        observer.test_object(Object::Sphere(sphere), ray, t_max);
                         if sphere.occludes(ray, t_max) && casts_shadow(sphere.surface()) {
                             return true;
                         }
@@ -74,7 +74,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                 } else if stage(NEEDS, Needs::TRIANGLES)
                     && let Some(triangle) = self.scene.triangles.get(entry.index())
                 {
-                    observer.test(TestKind::Triangle);
+                    observer.test_object(Object::Triangle(triangle), ray, t_max);
                     if triangle.occludes(ray, t_max) && casts_shadow(triangle.surface()) {
                         return true;
                     }

@@ -35,7 +35,7 @@ use lanes::{Colors, Indices, LANES, Mask, Numbers, Rays, Vec3s};
 /// Traces eight rays at a time through a scene, which it has made lists of.
 #[derive(Debug)]
 pub(crate) struct PacketTracer<'a, const STACK: usize> {
-    tracer: Tracer<'a, f32, { Needs::ALL.bits() }, STACK>,
+    tracer: Tracer<'a, f32, { Needs::ALL.union(Needs::TREE).bits() }, STACK>,
     level: Level,
     spheres: Vec<Listed<'a, Sphere>>,
     planes: Vec<Listed<'a, Plane>>,
@@ -75,7 +75,9 @@ struct Target<'a> {
 
 impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
     /// A tracer of the same pictures.
-    pub(crate) fn new(tracer: Tracer<'a, f32, { Needs::ALL.bits() }, STACK>) -> Self {
+    pub(crate) fn new(
+        tracer: Tracer<'a, f32, { Needs::ALL.union(Needs::TREE).bits() }, STACK>,
+    ) -> Self {
         let scene = *tracer.scene();
         let material = |surface: Surface| scene.materials.get(surface.material as usize);
         let reach = |side: Side| scene.sides.get(side.index()).unwrap_or(&Reach::ALL);
