@@ -20,13 +20,42 @@ pub struct Resolution {
     pub height: u16,
 }
 
+/// A place in a pixel: the middle of one of `of`×`of` cells. It is that of a pixel in a picture with `of`
+/// times as many columns and rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Subpixel {
+    /// Column of the cell, from the left; less than `of`.
+    pub column: u8,
+    /// Row of the cell, from the top; less than `of`.
+    pub row: u8,
+    /// Cells side by side; 1 to 64, so that all places are exact in `f32`.
+    pub of: u8,
+}
+
+impl Subpixel {
+    /// The centre of the pixel.
+    pub const CENTER: Self = Self {
+        column: 0,
+        row: 0,
+        of: 1,
+    };
+}
+
 impl<T: Scalar> Camera<T> {
     /// `y` of the ray through the centre of row `row`, before normalisation:
     /// `(H − 1 − 2·row)/H`.
     #[inline(always)]
     pub fn row_height(&self, resolution: Resolution, row: u16) -> T {
-        let height = i32::from(resolution.height);
-        T::from_i32(height - 1 - 2 * i32::from(row)) / T::from_i32(height)
+        self.row_height_at(resolution, row, Subpixel::CENTER)
+    }
+
+    /// [`Camera::row_height`] of a place in each pixel.
+    #[inline(always)]
+    pub fn row_height_at(&self, resolution: Resolution, row: u16, at: Subpixel) -> T {
+        let of = i32::from(at.of);
+        let height = i32::from(resolution.height) * of;
+        let row = i32::from(row) * of + i32::from(at.row);
+        T::from_i32(height - 1 - 2 * row) / T::from_i32(height)
     }
 
     /// The largest `|x|` of a ray through a pixel, before normalisation: `(W − 1)/H`.
@@ -34,12 +63,33 @@ impl<T: Scalar> Camera<T> {
         T::from_i32(i32::from(resolution.width) - 1) / T::from_i32(i32::from(resolution.height))
     }
 
+    /// [`Camera::half_width`] of any place in a row of cells.
+    pub fn half_width_at(&self, resolution: Resolution, at: Subpixel) -> T {
+        let of = i32::from(at.of);
+        let [width, height] = [resolution.width, resolution.height].map(i32::from);
+        T::from_i32(of * width - 1) / T::from_i32(of * height)
+    }
+
     /// The ray through the centre of the pixel in `column` of the row at `row_height`:
     /// `x = (2·column + 1 − W)/H`, exactly opposite for mirrored columns.
     #[inline(always)]
     pub fn ray(&self, resolution: Resolution, row_height: T, column: u16) -> Ray<T> {
-        let x = T::from_i32(2 * i32::from(column) + 1 - i32::from(resolution.width))
-            / T::from_i32(i32::from(resolution.height));
+        self.ray_at(resolution, row_height, column, Subpixel::CENTER)
+    }
+
+    /// [`Camera::ray`] through a place in the pixel, whose row of cells is at `row_height`.
+    #[inline(always)]
+    pub fn ray_at(
+        &self,
+        resolution: Resolution,
+        row_height: T,
+        column: u16,
+        at: Subpixel,
+    ) -> Ray<T> {
+        let of = i32::from(at.of);
+        let column = i32::from(column) * of + i32::from(at.column);
+        let x = T::from_i32(2 * column + 1 - i32::from(resolution.width) * of)
+            / T::from_i32(i32::from(resolution.height) * of);
         Ray::new(self.position, Vec3::new(x, row_height, T::ONE).normalize())
     }
 }

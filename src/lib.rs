@@ -126,7 +126,7 @@ mod render;
 pub use background::Background;
 #[cfg(feature = "bake")]
 pub use bake::bake;
-pub use camera::{Camera, Resolution};
+pub use camera::{Camera, Resolution, Subpixel};
 pub use color::Color;
 pub use light::Light;
 pub use material::{Interface, Material, MaterialDescription};
@@ -136,8 +136,8 @@ pub use parser::{DecimalError, Excerpt, Expected, Found, FromDecimal, ParseError
 pub use print::{PrintError, print};
 pub use ray::{ObjectNumber, Ray, Side, origin_offset};
 pub use render::{
-    Budget, DisplayColor, Dithered, Exact, Frame, Picture, PixelSource, Progress, Quantizer,
-    ThroughRgb888,
+    Adaptive, AdaptiveScanline, Budget, CenterSample, DisplayColor, Dithered, Exact, Frame,
+    Picture, PixelSource, Progress, Quantizer, SampleSource, Supersampled, ThroughRgb888, differ,
 };
 pub use scalar::Scalar;
 pub use scene::{

@@ -1,10 +1,15 @@
-//! From linear colour to a display: quantisation, rows, whole pictures, frames that can be resumed.
+//! From linear colour to a display: quantisation, rows, whole pictures, frames that can be resumed, more
+//! samples a pixel.
 
+mod adaptive;
 mod color;
 mod dither;
 mod frame;
 mod picture;
+mod supersampling;
 
+pub use adaptive::{Adaptive, AdaptiveScanline, CenterSample, differ};
 pub use color::{DisplayColor, Dithered, Exact, Quantizer, ThroughRgb888};
 pub use frame::{Budget, Frame, Progress};
 pub use picture::{Picture, PixelSource};
+pub use supersampling::{SampleSource, Supersampled};

@@ -11,7 +11,7 @@ pub use observer::{LightAtHit, Meeting, Observer, RayCount, RayKind, TestKind, W
 use core::fmt;
 
 use crate::background::Background;
-use crate::camera::Resolution;
+use crate::camera::{Resolution, Subpixel};
 use crate::color::Color;
 use crate::material::{Interface, Material};
 use crate::ray::{ObjectNumber, Ray, Side};
@@ -620,6 +620,18 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
     pub fn scanline(&self, y: u16) -> Scanline<T> {
         let row_height = self.scene.camera.row_height(self.resolution, y);
         let half_width = self.scene.camera.half_width(self.resolution);
+        self.scanline_of(row_height, half_width)
+    }
+
+    /// What the samples at a place in the pixels of a row have in common.
+    pub fn scanline_at(&self, y: u16, at: Subpixel) -> Scanline<T> {
+        let row_height = self.scene.camera.row_height_at(self.resolution, y, at);
+        let half_width = self.scene.camera.half_width_at(self.resolution, at);
+        self.scanline_of(row_height, half_width)
+    }
+
+    #[inline(always)]
+    fn scanline_of(&self, row_height: T, half_width: T) -> Scanline<T> {
         Scanline {
             row_height,
             visible: visible_in_row(&self.scene, row_height, half_width),
@@ -629,9 +641,15 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
     /// The primary ray of a pixel; `x` must lie in the picture.
     #[inline(always)]
     pub fn primary_ray(&self, scanline: &Scanline<T>, x: u16) -> Ray<T> {
+        self.primary_ray_at(scanline, x, Subpixel::CENTER)
+    }
+
+    /// The primary ray through a place in a pixel, for the scanline of that place.
+    #[inline(always)]
+    pub fn primary_ray_at(&self, scanline: &Scanline<T>, x: u16, at: Subpixel) -> Ray<T> {
         self.scene
             .camera
-            .ray(self.resolution, scanline.row_height, x)
+            .ray_at(self.resolution, scanline.row_height, x, at)
     }
 
     /// The linear colour of a pixel, each channel in 0…1: a pure function of scene, settings and
@@ -648,7 +666,23 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         x: u16,
         observer: &mut impl Observer<T>,
     ) -> Color<T> {
-        self.radiance_observed(self.primary_ray(scanline, x), scanline.visible, observer)
+        self.sample_observed(scanline, x, Subpixel::CENTER, observer)
+    }
+
+    /// The linear colour at a place in a pixel, for the scanline of that place, watched.
+    #[inline(always)]
+    pub fn sample_observed(
+        &self,
+        scanline: &Scanline<T>,
+        x: u16,
+        at: Subpixel,
+        observer: &mut impl Observer<T>,
+    ) -> Color<T> {
+        self.radiance_observed(
+            self.primary_ray_at(scanline, x, at),
+            scanline.visible,
+            observer,
+        )
     }
 }
 
