@@ -8,6 +8,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 use crate::commands::bake::BakeArgs;
 use crate::commands::diff::DiffArgs;
 use crate::commands::inspect::InspectArgs;
+use crate::commands::pixel::PixelArgs;
 use crate::commands::render::RenderArgs;
 
 /// Draws scenes for small displays on the desktop, with the bits the device will draw.
@@ -26,6 +27,7 @@ Examples:
   scanray render --display list            displays to choose from
   scanray inspect scene.txt                check what was read
   scanray bake scene.txt -o scene.rs       put it into a firmware's flash
+  scanray pixel scene.txt 4,3              why a pixel has its colour
   scanray diff old.png new.png             how different two pictures are
   scanray help render                      all that render can do
 
@@ -52,6 +54,8 @@ pub(crate) enum Command {
     Inspect(InspectArgs),
     /// Write a scene as Rust source, for a `static` in a firmware's flash
     Bake(BakeArgs),
+    /// Tell how the colours of pixels come about: the tree of rays
+    Pixel(PixelArgs),
     /// Compare two pictures: numbers, a picture of the differences
     Diff(DiffArgs),
 }

@@ -11,8 +11,8 @@ use embedded_graphics::pixelcolor::Rgb888;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use scanray::{
-    Color, DisplayColor, Needs, Picture, PixelSource, Quantizer, Resolution, Scalar, Scanline,
-    Scene, Tracer, WorkCount,
+    Color, DisplayColor, Needs, Observer, Picture, PixelSource, Quantizer, Resolution, Scalar,
+    Scanline, Scene, Tracer, WorkCount,
 };
 
 use crate::canvas::Canvas;
@@ -80,6 +80,16 @@ impl<'a, T: Scalar> HostTracer<'a, T> {
             .with_max_depth(max_depth)
             .map(Self)
             .map_err(|error| Failure::Usage(error.to_string()))
+    }
+
+    /// The linear colour of a pixel, watched.
+    pub(crate) fn pixel_observed(
+        &self,
+        x: u16,
+        y: u16,
+        observer: &mut impl Observer<T>,
+    ) -> Color<T> {
+        self.0.pixel_observed(&self.0.scanline(y), x, observer)
     }
 
     /// Rays and tests that the rows take. They are counted by tracing every pixel once more, so that

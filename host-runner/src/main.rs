@@ -16,20 +16,23 @@ mod picture_args;
 mod places;
 mod pools;
 mod progress;
+mod ray_tree;
 mod render_report;
 mod scene_data;
 mod scene_file;
+mod scene_lines;
 
 use std::process::ExitCode;
 
 use cli::{Cli, Command};
-use commands::{bake, diff, inspect, render};
+use commands::{bake, diff, inspect, pixel, render};
 
 fn main() -> ExitCode {
     let result = match Cli::from_arguments() {
         Command::Render(args) => render::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Bake(args) => bake::run(&args),
+        Command::Pixel(args) => pixel::run(&args),
         Command::Diff(args) => diff::run(&args),
     };
     result.unwrap_or_else(|failure| failure.report())

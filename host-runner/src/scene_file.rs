@@ -72,7 +72,7 @@ impl SceneSource {
     /// # Errors
     ///
     /// [`Failure::Files`].
-    fn read(&self) -> Result<Vec<u8>, Failure> {
+    pub(crate) fn read(&self) -> Result<Vec<u8>, Failure> {
         let cannot =
             |error: io::Error| Failure::Files(format!("cannot read {}: {error}", self.name()));
         let mut text = Vec::new();
@@ -101,9 +101,21 @@ impl SceneSource {
     ///
     /// [`Failure::Files`] and [`Failure::Scene`].
     pub(crate) fn load<T: HostScalar>(&self, pools: &mut HostPools<T>) -> Result<(), Failure> {
-        let text = self.read()?;
-        let report = pools.parse(&text).map_err(|error| {
-            Failure::Scene(error_report(&self.name(), &text, &error, &renderer()))
+        self.load_text(&self.read()?, pools)
+    }
+
+    /// The same for a text that was read from here.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure::Scene`].
+    pub(crate) fn load_text<T: HostScalar>(
+        &self,
+        text: &[u8],
+        pools: &mut HostPools<T>,
+    ) -> Result<(), Failure> {
+        let report = pools.parse(text).map_err(|error| {
+            Failure::Scene(error_report(&self.name(), text, &error, &renderer()))
         })?;
         if let Some(line) = report.short_light_line {
             say(format_args!(

@@ -3,4 +3,5 @@
 pub(crate) mod bake;
 pub(crate) mod diff;
 pub(crate) mod inspect;
+pub(crate) mod pixel;
 pub(crate) mod render;

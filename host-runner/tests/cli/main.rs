@@ -7,5 +7,6 @@ mod errors;
 mod examples;
 mod files;
 mod inspect;
+mod pixel;
 mod program;
 mod render;
