@@ -167,24 +167,24 @@ pub(crate) struct Parts<'a, P, Q> {
     picture: Picture<P, Q>,
     rows: Range<u16>,
     workers: &'a Workers,
-    progress: Progress,
+    progress: &'a Progress,
     time: Duration,
     cpu_time: Duration,
 }
 
 impl<'a, P: PixelSource, Q: Quantizer> Parts<'a, P, Q> {
-    /// Begins to draw rows of a picture; `name` is shown with the progress.
+    /// Begins to draw rows of a picture; each is a step of the progress.
     pub(crate) fn new(
         picture: Picture<P, Q>,
         rows: Range<u16>,
         workers: &'a Workers,
-        name: &str,
+        progress: &'a Progress,
     ) -> Self {
         Self {
             picture,
-            progress: Progress::new(format!("Drawing {name}"), rows.len() as u64),
             rows,
             workers,
+            progress,
             time: Duration::ZERO,
             cpu_time: Duration::ZERO,
         }
@@ -221,7 +221,7 @@ where
         self.rows.start += rows;
 
         let mut canvas = Canvas::new(width, top, rows);
-        let (picture, progress) = (&self.picture, &self.progress);
+        let (picture, progress) = (&self.picture, self.progress);
         self.workers.0.install(|| {
             canvas.bands(BAND_ROWS).for_each(|mut band| {
                 let Ok(()) = picture.draw(&mut band);

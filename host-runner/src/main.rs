@@ -12,6 +12,7 @@ mod image;
 mod options;
 mod output;
 mod packet;
+mod part;
 mod picture_args;
 mod places;
 mod pools;
@@ -21,6 +22,7 @@ mod render_report;
 mod scene_data;
 mod scene_file;
 mod scene_lines;
+mod turntable;
 
 use std::process::ExitCode;
 

@@ -6,6 +6,8 @@ use std::str::FromStr;
 use clap::ValueEnum;
 use scanray::Resolution;
 
+use crate::turntable::Axis;
+
 /// `WxH`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Size(pub(crate) Resolution);
@@ -32,53 +34,92 @@ impl FromStr for Size {
     }
 }
 
-/// `A..B`: rows from A up to, but not including, B. Either may be left out.
+/// `A..B`: numbers from A up to, but not including, B. Either may be left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct RowRange {
+pub(crate) struct RangeOption {
     start: u16,
     end: Option<u16>,
 }
 
-impl FromStr for RowRange {
+impl FromStr for RangeOption {
     type Err = String;
 
     fn from_str(word: &str) -> Result<Self, String> {
-        let row = |digits: &str| match digits {
+        let number = |digits: &str| match digits {
             "" => Some(None),
             _ => digits.parse().ok().map(Some),
         };
         word.split_once("..")
             .and_then(|(start, end)| {
-                let (start, end) = (row(start)?.unwrap_or(0), row(end)?);
+                let (start, end) = (number(start)?.unwrap_or(0), number(end)?);
                 let is_empty = end.is_some_and(|end| end <= start);
                 (!is_empty).then_some(Self { start, end })
             })
             .ok_or_else(|| {
-                "give the first row and the row after the last, such as 0..100 for the first hundred"
+                "give the first and the one after the last, such as 0..100 for the first hundred"
                     .to_owned()
             })
     }
 }
 
-impl RowRange {
-    /// The rows of a picture that are meant.
+impl RangeOption {
+    /// The numbers that are meant, of `count`, or all of them. Where that cannot be, the sentence is "--rows
+    /// 0..9: the picture has 8 rows", with `option` and `things`.
     ///
     /// # Errors
     ///
-    /// A sentence, when the picture has not all of them.
-    pub(crate) fn within(option: Option<Self>, height: u16) -> Result<Range<u16>, String> {
-        let Some(Self { start, end }) = option else {
-            return Ok(0..height);
+    /// A sentence, when there are not so many.
+    pub(crate) fn within(
+        range: Option<Self>,
+        count: u16,
+        option: &str,
+        [whole, things]: [&str; 2],
+    ) -> Result<Range<u16>, String> {
+        let Some(Self { start, end }) = range else {
+            return Ok(0..count);
         };
-        let range = start..end.unwrap_or(height);
-        if range.is_empty() || range.end > height {
+        let range = start..end.unwrap_or(count);
+        if range.is_empty() || range.end > count {
             let end = end.map(|end| end.to_string()).unwrap_or_default();
             return Err(format!(
-                "--rows {start}..{end}: the picture has {height} rows, so the most is 0..{height}"
+                "{option} {start}..{end}: {whole} has {count} {things}, so the most is 0..{count}"
             ));
         }
         Ok(range)
     }
+}
+
+/// `X,Z`: a vertical axis.
+///
+/// # Errors
+///
+/// A sentence.
+pub(crate) fn axis(word: &str) -> Result<Axis, String> {
+    let number = |word: &str| word.trim().parse().ok().filter(|n: &f64| n.is_finite());
+    word.split_once(',')
+        .and_then(|(x, z)| {
+            Some(Axis {
+                x: number(x)?,
+                z: number(z)?,
+            })
+        })
+        .ok_or_else(|| "give the x and the z of the axis, such as 0,2.5".to_owned())
+}
+
+/// Milliseconds, as hundredths of a second: that is what GIF counts in.
+///
+/// # Errors
+///
+/// A sentence.
+pub(crate) fn centiseconds(word: &str) -> Result<u16, String> {
+    word.parse()
+        .ok()
+        .filter(|ms| (20..=60_000).contains(ms) && ms % 10 == 0)
+        .map(|ms: u16| ms / 10)
+        .ok_or_else(|| {
+            "give tens of milliseconds from 20 to 60000; viewers show shorter ones too long"
+                .to_owned()
+        })
 }
 
 /// A maximum depth that there is a stack for.
@@ -177,10 +218,10 @@ mod tests {
     }
 
     #[test]
-    fn ranges_of_rows() {
-        let within = |word: &str, height| {
-            let range = word.parse::<RowRange>().ok()?;
-            RowRange::within(Some(range), height).ok()
+    fn ranges() {
+        let within = |word: &str, count| {
+            let range = word.parse::<RangeOption>().ok()?;
+            RangeOption::within(Some(range), count, "--rows", ["the picture", "rows"]).ok()
         };
         assert_eq!(within("0..5", 5), Some(0..5));
         assert_eq!(within("2..", 5), Some(2..5));
@@ -191,6 +232,21 @@ mod tests {
         ] {
             assert_eq!(within(word, 5), None, "{word}");
         }
-        assert_eq!(RowRange::within(None, 7), Ok(0..7));
+        assert_eq!(
+            RangeOption::within(None, 7, "--rows", ["the picture", "rows"]),
+            Ok(0..7)
+        );
+    }
+
+    #[test]
+    fn axes_and_delays() {
+        assert_eq!(axis("-1.5, 2"), Ok(Axis { x: -1.5, z: 2.0 }));
+        for word in ["", "1", "1,2,3", "1;2", "a,b", "inf,0"] {
+            assert!(axis(word).is_err(), "{word}");
+        }
+        assert_eq!(centiseconds("40"), Ok(4));
+        for word in ["", "0", "10", "45", "60010", "-40", "1s"] {
+            assert!(centiseconds(word).is_err(), "{word}");
+        }
     }
 }

@@ -4,7 +4,7 @@ use clap::{ArgAction, Args};
 use scanray::{DEFAULT_MAX_DEPTH, Resolution};
 
 use crate::displays::{Display, DisplayChoice};
-use crate::options::{ColorName, ScalarName, Size, max_depth};
+use crate::options::{ColorName, ScalarName, Size, max_depth, name_of};
 
 /// The options of the command line.
 #[derive(Args, Debug)]
@@ -94,6 +94,31 @@ impl PictureSettings {
     /// The size of the picture of a scene that has this size of its own.
     pub(crate) fn resolution(&self, own: Resolution) -> Resolution {
         self.size.unwrap_or(own)
+    }
+
+    /// All that decides the pixels beside scene and size, name and value, for [`PartRecord`]s.
+    ///
+    /// [`PartRecord`]: crate::part::PartRecord
+    pub(crate) fn record(&self) -> Vec<(String, String)> {
+        // Naming every field keeps a new one from being forgotten.
+        let Self {
+            size: _,
+            color,
+            dither,
+            max_depth,
+            scalar,
+        } = *self;
+        let dither = if dither { "on" } else { "off" };
+        [
+            // Other versions may draw other bits.
+            ("version", env!("CARGO_PKG_VERSION").to_owned()),
+            ("scalar", name_of(scalar)),
+            ("max-depth", max_depth.to_string()),
+            ("color", name_of(color)),
+            ("dither", dither.to_owned()),
+        ]
+        .map(|(name, value)| (name.to_owned(), value))
+        .to_vec()
     }
 }
 

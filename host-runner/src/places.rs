@@ -1,7 +1,9 @@
-//! Which file the picture of each scene becomes.
+//! Which files the pictures of each scene become.
 
 use std::collections::HashMap;
+use std::ffi::OsString;
 use std::io::{self, IsTerminal};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
@@ -9,7 +11,25 @@ use crate::image::ImageFormat;
 use crate::output::Place;
 use crate::scene_file::SceneSource;
 
-/// Where the picture of each scene goes, and in which format. `output` is what `-o` names.
+/// A file to be written.
+#[derive(Clone, Debug)]
+pub(crate) struct PictureFile {
+    pub(crate) place: Place,
+    pub(crate) format: ImageFormat,
+    /// Which pictures of a turntable it holds; 0 alone if there is no turntable.
+    pub(crate) steps: Range<u16>,
+}
+
+/// Which pictures of a turntable are drawn.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Steps {
+    pub(crate) range: Range<u16>,
+    /// How many the turntable has.
+    pub(crate) of: u16,
+}
+
+/// Where the pictures of each scene go, and in which format. `output` is what `-o` names. The pictures of
+/// a turntable become one GIF file or numbered files of another format.
 ///
 /// # Errors
 ///
@@ -17,33 +37,36 @@ use crate::scene_file::SceneSource;
 pub(crate) fn places(
     scenes: &[SceneSource],
     output: Option<&Path>,
-) -> Result<Vec<(Place, ImageFormat)>, Failure> {
-    let by_name = |folder: &Path| -> Result<Vec<(Place, ImageFormat)>, Failure> {
+    turntable: Option<&Steps>,
+) -> Result<Vec<Vec<PictureFile>>, Failure> {
+    let default_extension = if turntable.is_some() { "gif" } else { "ppm" };
+    let by_path = |path: &Path| -> Result<Vec<PictureFile>, Failure> {
+        single_place(path).and_then(|place| files(path, place, turntable))
+    };
+    let by_name = |folder: &Path| -> Result<Vec<Vec<PictureFile>>, Failure> {
         let paths: Vec<_> = scenes
             .iter()
             .map(|scene| {
                 let mut name = scene.stem().into_os_string();
-                name.push(".ppm");
+                name.push(".");
+                name.push(default_extension);
                 folder.join(name)
             })
             .collect();
         refuse_doubles(scenes, &paths)?;
-        paths
-            .iter()
-            .map(|path| Ok((Place::file(path)?, ImageFormat::Ppm)))
-            .collect()
+        paths.iter().map(|path| by_path(path)).collect()
     };
     match (output, scenes) {
-        (None, [_]) => Ok(vec![(
-            Place::file(Path::new("output.ppm"))?,
-            ImageFormat::Ppm,
-        )]),
+        (None, [_]) => {
+            let path = Path::new("output").with_extension(default_extension);
+            by_path(&path).map(|files| vec![files])
+        }
         (None, _) => by_name(Path::new("")),
         (Some(folder), _) if folder.is_dir() => by_name(folder),
-        (Some(output), [_]) => single_place(output).map(|place| vec![place]),
+        (Some(output), [_]) => by_path(output).map(|files| vec![files]),
         (Some(output), _) => Err(Failure::Usage(format!(
             "-o {} cannot take the pictures of {} scenes: name an existing folder, or leave -o out to \
-             get NAME.ppm for each in this one",
+             get NAME.{default_extension} for each in this one",
             output.display(),
             scenes.len()
         ))),
@@ -75,10 +98,54 @@ pub(crate) fn single_place(output: &Path) -> Result<(Place, ImageFormat), Failur
     // A device or pipe has no extension.
     if format.is_none() && !output.metadata().is_ok_and(|there| !there.is_file()) {
         return Err(Failure::Usage(format!(
-            "-o {name}: the name must end in .ppm or .png"
+            "-o {name}: the name must end in .ppm, .png or .gif"
         )));
     }
     Ok((Place::file(output)?, format.unwrap_or(ImageFormat::Ppm)))
+}
+
+/// The files of one scene, where `path` is that of its only picture.
+///
+/// # Errors
+///
+/// [`Failure::Files`] for a file that cannot be written.
+pub(crate) fn files(
+    path: &Path,
+    (place, format): (Place, ImageFormat),
+    turntable: Option<&Steps>,
+) -> Result<Vec<PictureFile>, Failure> {
+    let file = |place, steps| PictureFile {
+        place,
+        format,
+        steps,
+    };
+    match (turntable, &place) {
+        (None, _) => Ok(vec![file(place, 0..1)]),
+        (Some(steps), _) if format == ImageFormat::Gif => {
+            Ok(vec![file(place, steps.range.clone())])
+        }
+        (Some(steps), Place::File { .. }) => {
+            let numbered = |step| {
+                let place = Place::file(&numbered(path, step, steps.of))?;
+                Ok(file(place, step..step + 1))
+            };
+            steps.range.clone().map(numbered).collect()
+        }
+        // One picture after the other.
+        (Some(steps), Place::Stdout | Place::Device(_)) => {
+            let same = |step| file(place.clone(), step..step + 1);
+            Ok(steps.range.clone().map(same).collect())
+        }
+    }
+}
+
+/// `NAME-007.png` for `NAME.png`.
+fn numbered(path: &Path, step: u16, of: u16) -> PathBuf {
+    let digits = (of - 1).to_string().len().max(3);
+    let mut name = OsString::from(path.file_stem().unwrap_or_default());
+    name.push(format!("-{step:0digits$}."));
+    name.push(path.extension().unwrap_or_default());
+    path.with_file_name(name)
 }
 
 /// Two scenes must not become one file.
@@ -95,4 +162,18 @@ fn refuse_doubles(scenes: &[SceneSource], paths: &[PathBuf]) -> Result<(), Failu
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_three_digits_or_as_many_as_are_needed() {
+        let name = |path: &str, step, of| numbered(Path::new(path), step, of);
+        assert_eq!(name("turn.png", 7, 36), Path::new("turn-007.png"));
+        assert_eq!(name("a.b/c.d.PPM", 0, 1), Path::new("a.b/c.d-000.PPM"));
+        assert_eq!(name("t.png", 999, 1000), Path::new("t-999.png"));
+        assert_eq!(name("t.png", 999, 1001), Path::new("t-0999.png"));
+    }
 }

@@ -15,6 +15,8 @@ pub(crate) struct RenderReport {
     #[serde(serialize_with = "serialize_resolution")]
     pub(crate) size: Resolution,
     pub(crate) rows: Range<u16>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) turntable: Option<TurntableReport>,
     pub(crate) scalar: &'static str,
     pub(crate) color: String,
     pub(crate) dither: bool,
@@ -29,6 +31,15 @@ pub(crate) struct RenderReport {
     pub(crate) rays: Rays,
     pub(crate) tests: Tests,
     pub(crate) pools: Pools,
+}
+
+/// The pictures of a turntable that are in a file; times, rays and tests are those of all of them.
+#[derive(Clone, Debug, serde::Serialize)]
+pub(crate) struct TurntableReport {
+    pub(crate) steps: Range<u16>,
+    pub(crate) of: u16,
+    /// x and z of the axis.
+    pub(crate) about: [f64; 2],
 }
 
 /// Rays by kind.

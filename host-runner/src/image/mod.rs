@@ -1,5 +1,6 @@
 //! Image files: written row by row, read whole.
 
+mod gif;
 mod png;
 mod ppm;
 
@@ -8,6 +9,7 @@ use std::fs::File;
 use std::io::{self, Read, Write};
 use std::path::Path;
 
+pub(crate) use self::gif::Animation;
 use crate::failure::Failure;
 
 /// A kind of image file.
@@ -17,6 +19,8 @@ pub(crate) enum ImageFormat {
     Ppm,
     /// PNG with 8 bits a channel.
     Png,
+    /// GIF with at most 256 colours a picture.
+    Gif,
 }
 
 impl ImageFormat {
@@ -27,6 +31,8 @@ impl ImageFormat {
             Some(Self::Ppm)
         } else if extension.eq_ignore_ascii_case("png") {
             Some(Self::Png)
+        } else if extension.eq_ignore_ascii_case("gif") {
+            Some(Self::Gif)
         } else {
             None
         }
@@ -90,7 +96,8 @@ impl Image {
     }
 }
 
-/// Writes an image of `width` × `height` pixels: `rows` has as many, three bytes a pixel.
+/// Writes an image of `width` × `height` pixels: `rows` has as many, three bytes a pixel. The comment is a
+/// line of ASCII; a GIF has none, and its pixels are kept in memory.
 ///
 /// # Errors
 ///
@@ -99,11 +106,17 @@ pub(crate) fn write(
     format: ImageFormat,
     file: &mut dyn Write,
     [width, height]: [u16; 2],
+    comment: Option<&str>,
     rows: &mut dyn Iterator<Item = Vec<u8>>,
 ) -> io::Result<()> {
     match format {
-        ImageFormat::Ppm => ppm::write(file, width, height, rows),
-        ImageFormat::Png => png::write(file, width, height, rows),
+        ImageFormat::Ppm => ppm::write(file, width, height, comment, rows),
+        ImageFormat::Png => png::write(file, width, height, comment, rows),
+        ImageFormat::Gif => {
+            let mut animation = Animation::new([width, height], 0)?;
+            animation.add(&rows.flatten().collect::<Vec<u8>>())?;
+            file.write_all(&animation.finish()?)
+        }
     }
 }
 
@@ -125,7 +138,7 @@ pub(crate) fn write_whole(
         .rgb888
         .chunks_exact(image.width * 3)
         .map(<[u8]>::to_vec);
-    write(format, file, [width, height], &mut rows)
+    write(format, file, [width, height], None, &mut rows)
 }
 
 #[cfg(test)]
@@ -137,6 +150,7 @@ mod tests {
         let of = |path: &str| ImageFormat::of(Path::new(path));
         assert_eq!(of("a.ppm"), Some(ImageFormat::Ppm));
         assert_eq!(of("dir.x/a.b.PNG"), Some(ImageFormat::Png));
+        assert_eq!(of("a.Gif"), Some(ImageFormat::Gif));
         assert_eq!(of("a.jpg"), None);
         assert_eq!(of("ppm"), None);
         assert_eq!(of(".png"), None);
@@ -148,7 +162,7 @@ mod tests {
         let write = |format| {
             let mut file = Vec::new();
             let mut rows = rows.iter().map(|row| row.to_vec());
-            super::write(format, &mut file, [2, 2], &mut rows).unwrap();
+            super::write(format, &mut file, [2, 2], None, &mut rows).unwrap();
             file
         };
         let ppm = write(ImageFormat::Ppm);
@@ -169,7 +183,7 @@ mod tests {
         for format in [ImageFormat::Ppm, ImageFormat::Png] {
             let mut file = Vec::new();
             let mut lines = rows.iter().map(|row| row.to_vec());
-            write(format, &mut file, [2, 2], &mut lines).unwrap();
+            write(format, &mut file, [2, 2], None, &mut lines).unwrap();
             let image = Image::decode(&file).unwrap();
             assert_eq!((image.width, image.height), (2, 2));
             assert_eq!(image.rgb888, rows.concat());

@@ -10,11 +10,15 @@ pub(super) fn write(
     file: &mut dyn Write,
     width: u16,
     height: u16,
+    comment: Option<&str>,
     rows: &mut dyn Iterator<Item = Vec<u8>>,
 ) -> io::Result<()> {
     let mut encoder = Encoder::new(file, width.into(), height.into());
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
+    if let Some(comment) = comment {
+        encoder.add_text_chunk("Comment".to_owned(), comment.to_owned())?;
+    }
     let mut png = encoder.write_header()?;
     let mut stream = png.stream_writer()?;
     for row in rows {

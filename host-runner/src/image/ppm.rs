@@ -8,9 +8,15 @@ pub(super) fn write(
     file: &mut dyn Write,
     width: u16,
     height: u16,
+    comment: Option<&str>,
     rows: &mut dyn Iterator<Item = Vec<u8>>,
 ) -> io::Result<()> {
-    write!(file, "P6\n{width} {height}\n255\n")?;
+    writeln!(file, "P6")?;
+    if let Some(comment) = comment {
+        // Where GIMP puts its own, so that all readers know it there.
+        writeln!(file, "# {comment}")?;
+    }
+    write!(file, "{width} {height}\n255\n")?;
     for row in rows {
         file.write_all(&row)?;
     }

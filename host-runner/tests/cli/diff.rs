@@ -166,7 +166,7 @@ fn wrong_input_is_told() {
         (
             2,
             &["diff", "a.ppm", "a.ppm", "-o", "a.jpg"],
-            "must end in .ppm or .png",
+            "must end in .ppm, .png or .gif",
         ),
         (
             2,

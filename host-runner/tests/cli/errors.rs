@@ -18,11 +18,35 @@ fn usage_errors_say_what_to_do() {
         (&["render", "--rows", "5"], "such as 0..100"),
         (&["render", "--rows", "5..5"], "such as 0..100"),
         (&["render", "--rows", "0..601"], "the most is 0..600"),
+        (&["render", "--steps", "0..2"], "--turntable <N>"),
+        (&["render", "--turntable", "0"], "1..=65535"),
+        (
+            &["render", "--turntable", "9", "--steps", "8..10"],
+            "--steps 8..10: the turntable has 9 steps, so the most is 0..9",
+        ),
+        (
+            &["render", "--turntable", "9", "--about", "1"],
+            "such as 0,2.5",
+        ),
+        (
+            &["render", "--turntable", "9", "--delay", "5"],
+            "tens of milliseconds",
+        ),
+        (
+            &["render", "--rows", "0..9", "-o", "a.gif"],
+            "draw parts into .ppm or .png files",
+        ),
         (&["render", "--threads", "0"], "1..=1024"),
         (&["render", "--color", "rgb"], "possible values: rgb888, "),
         (&["render", "--scalar", "f16"], "possible values: f32, f64"),
-        (&["render", "-o", "picture.jpg"], "must end in .ppm or .png"),
-        (&["render", "-o", "picture"], "must end in .ppm or .png"),
+        (
+            &["render", "-o", "picture.jpg"],
+            "must end in .ppm, .png or .gif",
+        ),
+        (
+            &["render", "-o", "picture"],
+            "must end in .ppm, .png or .gif",
+        ),
         (&["render", "-o", "pictures/"], "there is no such folder"),
         (&["render", "-o", "-", "--json"], "name a file with -o"),
         (

@@ -10,3 +10,4 @@ mod inspect;
 mod pixel;
 mod program;
 mod render;
+mod turntable;

@@ -115,20 +115,53 @@ impl Folder {
 }
 
 impl Picture {
+    /// The picture of a file that holds one.
     #[track_caller]
     pub(crate) fn from_ppm(file: &[u8]) -> Self {
-        let mut lines = file.splitn(4, |byte| *byte == b'\n');
-        let mut line = || lines.next().unwrap();
-        assert_eq!(line(), b"P6");
-        let size = std::str::from_utf8(line()).unwrap();
-        let (width, height) = size.split_once(' ').unwrap();
+        let (picture, rest) = Self::first_of(file);
+        assert_eq!(rest, b"");
+        picture
+    }
+
+    /// The first picture of a file, and what follows it.
+    #[track_caller]
+    pub(crate) fn first_of(file: &[u8]) -> (Self, &[u8]) {
+        let mut rest = file;
+        let mut line = || {
+            loop {
+                let end = rest.iter().position(|byte| *byte == b'\n').unwrap();
+                let line = std::str::from_utf8(&rest[..end]).unwrap();
+                rest = &rest[end + 1..];
+                if !line.starts_with('#') {
+                    return line;
+                }
+            }
+        };
+        assert_eq!(line(), "P6");
+        let (width, height) = line().split_once(' ').unwrap();
         let (width, height) = (width.parse().unwrap(), height.parse().unwrap());
-        assert_eq!(line(), b"255");
-        let rgb888 = line().to_vec();
-        assert_eq!(rgb888.len(), width * height * 3);
-        Self {
+        assert_eq!(line(), "255");
+        let (pixels, rest) = rest.split_at(width * height * 3);
+        let picture = Self {
             width,
             height,
+            rgb888: pixels.to_vec(),
+        };
+        (picture, rest)
+    }
+
+    /// The picture of a PNG file with 8 bits a channel.
+    #[track_caller]
+    pub(crate) fn from_png(file: &[u8]) -> Self {
+        let mut reader = png::Decoder::new(std::io::Cursor::new(file))
+            .read_info()
+            .unwrap();
+        let mut rgb888 = vec![0; reader.output_buffer_size().unwrap()];
+        let info = reader.next_frame(&mut rgb888).unwrap();
+        assert_eq!(info.color_type, png::ColorType::Rgb);
+        Self {
+            width: info.width as usize,
+            height: info.height as usize,
             rgb888,
         }
     }

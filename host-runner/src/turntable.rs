@@ -1,0 +1,239 @@
+//! A scene seen from all around: the camera circles a vertical axis, looking the same way past it.
+//!
+//! The camera of a scene always looks along +z, so it is the scene that turns, with everything in it: a
+//! plane whose normal is not vertical, and the light, which stays where it is in the scene. Seen from above,
+//! with +x to the right and +z up, the camera moves counterclockwise: what is in front moves to the left. Step
+//! 0 is the scene as it is.
+//!
+//! All is computed in `f64`, with software functions, so that every machine gets the same numbers.
+
+use std::f64::consts::FRAC_PI_2;
+
+use scanray::{
+    Background, Camera, Light, MaterialDescription, Object, PoolsMut, Resolution, Scalar, Scene,
+    SceneError, Tracer, Vec3,
+};
+
+/// A vertical axis: all points with this x and z.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Axis {
+    pub(crate) x: f64,
+    pub(crate) z: f64,
+}
+
+/// A scene, and how it turns.
+#[derive(Clone, Debug)]
+pub(crate) struct Turntable<T> {
+    steps: u16,
+    axis: Axis,
+    camera: Camera<T>,
+    resolution: Resolution,
+    ambient: T,
+    background: Background<T>,
+    lights: Vec<Light<T>>,
+    objects: Vec<(Shape<T>, MaterialDescription<T>)>,
+}
+
+/// What an object is made from.
+#[derive(Clone, Copy, Debug)]
+enum Shape<T> {
+    Sphere { center: Vec3<T>, radius: T },
+    Plane { normal: Vec3<T>, height: T },
+    Triangle([Vec3<T>; 3]),
+}
+
+impl<T: Scalar> Turntable<T> {
+    /// A turntable of as many steps, at least 1, about an axis.
+    pub(crate) fn new(scene: &Scene<'_, T>, steps: u16, axis: Axis) -> Self {
+        let object = |object: Object<'_, T>| {
+            let shape = match object {
+                Object::Sphere(sphere) => Shape::Sphere {
+                    center: sphere.center(),
+                    radius: sphere.radius(),
+                },
+                Object::Plane(plane) => Shape::Plane {
+                    normal: plane.normal(),
+                    height: plane.height(),
+                },
+                Object::Triangle(triangle) => Shape::Triangle(triangle.vertices()),
+            };
+            (shape, scene.material(object.surface()))
+        };
+        Self {
+            steps,
+            axis,
+            camera: scene.camera,
+            resolution: scene.resolution,
+            ambient: scene.ambient,
+            background: scene.background,
+            lights: scene.lights.to_vec(),
+            objects: scene.objects().map(object).collect(),
+        }
+    }
+
+    /// Replaces the scene in the pools, which held it before, by the one of a step.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::Shape`] where turning takes a number out of the range of `T`.
+    pub(crate) fn turn(&self, pools: &mut PoolsMut<'_, T>, step: u16) -> Result<(), SceneError> {
+        let turn = Turn::of(self.axis, step, self.steps);
+        pools.clear();
+        pools.set_camera(self.camera);
+        pools.set_resolution(self.resolution);
+        pools.set_ambient(self.ambient);
+        pools.set_background(self.background);
+        for light in &self.lights {
+            pools.add_light(Light {
+                position: turn.point(light.position),
+                ..*light
+            })?;
+        }
+        for (shape, material) in &self.objects {
+            match *shape {
+                Shape::Sphere { center, radius } => {
+                    pools.add_sphere(turn.point(center), radius, *material)?;
+                }
+                Shape::Plane { normal, height } => {
+                    let (normal, distance) = turn.plane(normal, height);
+                    pools.add_plane(normal, distance, *material)?;
+                }
+                Shape::Triangle(vertices) => {
+                    pools.add_triangle(vertices.map(|vertex| turn.point(vertex)), *material)?;
+                }
+            }
+        }
+        pools.prepare();
+        Ok(())
+    }
+}
+
+/// By how much, and about which axis.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    axis: Axis,
+    sin: f64,
+    cos: f64,
+}
+
+impl Turn {
+    fn of(axis: Axis, step: u16, steps: u16) -> Self {
+        let quarters = 4 * u32::from(step);
+        let steps = u32::from(steps);
+        // Whole quarters are exact, so that four of them are back at the beginning.
+        let rest = f64::from(quarters % steps) / f64::from(steps) * FRAC_PI_2;
+        let (sin, cos) = libm::sincos(rest);
+        let (sin, cos) = match quarters / steps % 4 {
+            0 => (sin, cos),
+            1 => (cos, -sin),
+            2 => (-sin, -cos),
+            _ => (-cos, sin),
+        };
+        Self { axis, sin, cos }
+    }
+
+    /// Turns a direction in x and z.
+    fn direction(&self, x: f64, z: f64) -> (f64, f64) {
+        (x * self.cos + z * self.sin, z * self.cos - x * self.sin)
+    }
+
+    fn point<T: Scalar>(&self, point: Vec3<T>) -> Vec3<T> {
+        let Axis { x, z } = self.axis;
+        let (right, ahead) = self.direction(point.x.to_f64() - x, point.z.to_f64() - z);
+        Vec3::new(T::from_f64(right + x), point.y, T::from_f64(ahead + z))
+    }
+
+    /// The turned normal of a plane of the points with `normal·p = height`, and its distance.
+    fn plane<T: Scalar>(&self, normal: Vec3<T>, height: T) -> (Vec3<T>, T) {
+        let Axis { x, z } = self.axis;
+        let (right, ahead) = self.direction(normal.x.to_f64(), normal.z.to_f64());
+        // The axis keeps its distance from the plane.
+        let before = normal.x.to_f64() * x + normal.z.to_f64() * z;
+        let after = right * x + ahead * z;
+        (
+            Vec3::new(T::from_f64(right), normal.y, T::from_f64(ahead)),
+            T::from_f64(before - after - height.to_f64()),
+        )
+    }
+}
+
+/// Columns and rows of the rays that look for what is in view.
+const PROBES: [u16; 2] = [64, 48];
+
+/// The axis through the middle of what is in view: the median, over the picture, of the centres of the
+/// spheres and of the places on triangles that are seen, or of places on planes if there is nothing else.
+/// Rounded to four digits, so that it can be given again. `None` if only the background is seen.
+pub(crate) fn axis_in_view<T: Scalar>(scene: Scene<'_, T>, resolution: Resolution) -> Option<Axis> {
+    let tracer = Tracer::new(scene).with_tree().with_resolution(resolution);
+    let (mut bodies, mut floors) = (Vec::new(), Vec::new());
+    let probes = |length: u16, count: u16| {
+        let count = count.min(length);
+        (0..count).map(move |i| {
+            let place = (2 * u32::from(i) + 1) * u32::from(length) / (2 * u32::from(count));
+            place as u16
+        })
+    };
+    for y in probes(resolution.height, PROBES[1]) {
+        let scanline = tracer.scanline(y);
+        for x in probes(resolution.width, PROBES[0]) {
+            let ray = tracer.primary_ray(&scanline, x);
+            let Some(nearest) = tracer.nearest(&ray) else {
+                continue;
+            };
+            let place = ray.at(nearest.t);
+            match nearest.object {
+                Object::Sphere(sphere) => bodies.push(sphere.center()),
+                Object::Triangle(_) => bodies.push(place),
+                Object::Plane(_) => floors.push(place),
+            }
+        }
+    }
+    let places = if bodies.is_empty() { floors } else { bodies };
+    Some(Axis {
+        x: median(places.iter().map(|place| place.x.to_f64()))?,
+        z: median(places.iter().map(|place| place.z.to_f64()))?,
+    })
+}
+
+/// The median, rounded to four digits.
+fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    let median = values.get(values.len() / 2)?;
+    format!("{median:.3e}").parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const AXIS: Axis = Axis { x: 1.0, z: 3.0 };
+
+    #[test]
+    fn quarters_are_exact_and_go_round() {
+        let point = Vec3::new(1.5_f32, 7.0, 1.0);
+        let at = |step| Turn::of(AXIS, step, 4).point(point);
+        assert_eq!(at(0), point);
+        // What is in front goes to the left.
+        assert_eq!(at(1), Vec3::new(-1.0, 7.0, 2.5));
+        assert_eq!(at(2), Vec3::new(0.5, 7.0, 5.0));
+        assert_eq!(at(3), Vec3::new(3.0, 7.0, 3.5));
+        assert_eq!(at(4), point);
+    }
+
+    #[test]
+    fn planes_turn_with_their_points() {
+        let normal = Vec3::new(0.6_f64, 0.48, 0.64);
+        for step in 0..12 {
+            let turn = Turn::of(AXIS, step, 12);
+            let (turned, distance) = turn.plane(normal, 2.0);
+            assert!((turned.dot(turned) - 1.0).abs() < 1e-15);
+            // Three points of the plane.
+            for (x, y) in [(0.0, 0.0), (5.0, -3.0), (-2.0, 40.0)] {
+                let z = (2.0 - normal.x * x - normal.y * y) / normal.z;
+                let point = turn.point(Vec3::new(x, y, z));
+                assert!((turned.dot(point) + distance).abs() < 1e-13, "{step}");
+            }
+        }
+    }
+}
