@@ -137,7 +137,8 @@ pub use print::{PrintError, print};
 pub use ray::{ObjectNumber, Ray, Side, origin_offset};
 pub use render::{
     Adaptive, AdaptiveScanline, Budget, CenterSample, DisplayColor, Dithered, Exact, Frame,
-    Picture, PixelSource, Progress, Quantizer, SampleSource, Supersampled, ThroughRgb888, differ,
+    Picture, PixelSource, Progress, Progressive, Quantizer, SampleSource, Supersampled,
+    ThroughRgb888, differ,
 };
 pub use scalar::Scalar;
 pub use scene::{

@@ -23,11 +23,11 @@ pub enum Budget {
 }
 
 impl Budget {
-    fn is_spent(&self) -> bool {
+    pub(super) fn is_spent(&self) -> bool {
         matches!(self, Self::Rays(0) | Self::Pixels(0))
     }
 
-    fn charge(&mut self, rays: u32) {
+    pub(super) fn charge(&mut self, rays: u32) {
         match self {
             Self::Rays(left) => *left = left.saturating_sub(rays),
             Self::Pixels(left) => *left = left.saturating_sub(1),

@@ -6,10 +6,12 @@ mod color;
 mod dither;
 mod frame;
 mod picture;
+mod progressive;
 mod supersampling;
 
 pub use adaptive::{Adaptive, AdaptiveScanline, CenterSample, differ};
 pub use color::{DisplayColor, Dithered, Exact, Quantizer, ThroughRgb888};
 pub use frame::{Budget, Frame, Progress};
 pub use picture::{Picture, PixelSource};
+pub use progressive::Progressive;
 pub use supersampling::{SampleSource, Supersampled};

@@ -177,6 +177,12 @@ impl<P: PixelSource, Q: Quantizer> Picture<P, Q> {
         let (color, rays) = self.source.pixel_on(scanline, x);
         (Q::quantize(color, x, y), rays)
     }
+
+    /// The linear colour of a pixel of a row and the number of rays it took.
+    #[inline(always)]
+    pub(super) fn linear_pixel(&self, scanline: &P::Scanline, x: u16) -> (Color<P::Scalar>, u32) {
+        self.source.pixel_on(scanline, x)
+    }
 }
 
 /// The columns and rows of a picture inside an area, which may be anywhere and of any size:
