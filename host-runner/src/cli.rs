@@ -8,6 +8,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 use crate::commands::bake::BakeArgs;
 use crate::commands::diff::DiffArgs;
 use crate::commands::inspect::InspectArgs;
+use crate::commands::join::JoinArgs;
 use crate::commands::pixel::PixelArgs;
 use crate::commands::render::RenderArgs;
 
@@ -25,6 +26,8 @@ Examples:
   scanray render scene.txt -o tft.png --display st7789
                                            see it as a small colour display shows it
   scanray render --display list            displays to choose from
+  scanray render scene.txt -o turn.gif --turntable 36
+                                           see it from all around
   scanray inspect scene.txt                check what was read
   scanray bake scene.txt -o scene.rs       put it into a firmware's flash
   scanray pixel scene.txt 4,3              why a pixel has its colour
@@ -52,6 +55,8 @@ pub(crate) enum Command {
     Render(RenderArgs),
     /// Print a scene as it was read
     Inspect(InspectArgs),
+    /// Put a picture or turntable together that was drawn in parts
+    Join(JoinArgs),
     /// Write a scene as Rust source, for a `static` in a firmware's flash
     Bake(BakeArgs),
     /// Tell how the colours of pixels come about: the tree of rays

@@ -27,12 +27,13 @@ mod turntable;
 use std::process::ExitCode;
 
 use cli::{Cli, Command};
-use commands::{bake, diff, inspect, pixel, render};
+use commands::{bake, diff, inspect, join, pixel, render};
 
 fn main() -> ExitCode {
     let result = match Cli::from_arguments() {
         Command::Render(args) => render::run(&args),
         Command::Inspect(args) => inspect::run(&args),
+        Command::Join(args) => join::run(&args),
         Command::Bake(args) => bake::run(&args),
         Command::Pixel(args) => pixel::run(&args),
         Command::Diff(args) => diff::run(&args),

@@ -8,11 +8,14 @@
 //! scanray-part rows=0..60 size=160x120 step=3/36 about=0,2.5 scene=1f0c… version=0.1.0 scalar=f32 …
 //! ```
 
+use std::collections::BTreeSet;
 use std::fmt::{self, Write};
 use std::ops::Range;
 
 use scanray::{Resolution, Scalar, Scene, Tree};
 use sha2::{Digest, Sha256};
+
+use crate::options::Size;
 
 /// The first word.
 const MARK: &str = "scanray-part";
@@ -51,6 +54,71 @@ impl PartRecord {
         }
         words
     }
+
+    /// The record in the comment of a file, if that is one.
+    pub(crate) fn parse(comment: &str) -> Option<Self> {
+        let mut pairs = comment
+            .strip_prefix(MARK)?
+            .split_ascii_whitespace()
+            .map(|word| word.split_once('='));
+        let mut next = |wanted: &str| pairs.next()?.filter(|(name, _)| *name == wanted);
+        let (_, rows) = next("rows")?;
+        let (_, size) = next("size")?;
+        let Size(size) = size.parse().ok()?;
+        let (start, end) = rows.split_once("..")?;
+        let rows = start.parse().ok()?..end.parse().ok()?;
+        let mut record = Self {
+            rows,
+            size,
+            step: None,
+            settings: Vec::new(),
+        };
+        for pair in pairs {
+            match pair? {
+                ("step", step) => {
+                    let (index, of) = step.split_once('/')?;
+                    record.step = Some((index.parse().ok()?, of.parse().ok()?));
+                }
+                (name, value) => record.settings.push((name.to_owned(), value.to_owned())),
+            }
+        }
+        let is_possible = !record.rows.is_empty()
+            && record.rows.end <= record.size.height
+            && record.step.is_none_or(|(index, of)| index < of);
+        is_possible.then_some(record)
+    }
+
+    /// In what the whole differs that another part belongs to, as "color rgb565 instead of rgb888".
+    pub(crate) fn differences(&self, other: &Self) -> Vec<String> {
+        let mut differences = Vec::new();
+        let mut compare = |name: &str, mine: Option<&str>, others: Option<&str>| {
+            if mine != others {
+                let [mine, others] = [mine, others].map(|value| value.unwrap_or("none"));
+                differences.push(format!("{name} {others} instead of {mine}"));
+            }
+        };
+        let [mine, others] = [self, other].map(|record| {
+            let Resolution { width, height } = record.size;
+            format!("{width}x{height}")
+        });
+        compare("size", Some(&mine), Some(&others));
+        let [mine, others] = [self, other].map(|record| record.step.map(|(_, of)| of.to_string()));
+        compare("turntable", mine.as_deref(), others.as_deref());
+        let names: BTreeSet<&str> = [self, other]
+            .iter()
+            .flat_map(|record| record.settings.iter().map(|(name, _)| &**name))
+            .collect();
+        for name in names {
+            compare(name, self.setting(name), other.setting(name));
+        }
+        differences
+    }
+
+    fn setting(&self, name: &str) -> Option<&str> {
+        let mut settings = self.settings.iter();
+        let (_, value) = settings.find(|(known, _)| known == name)?;
+        Some(value)
+    }
 }
 
 /// What identifies a scene: a hash of all that is in it. It does not change with comments, blanks or the
@@ -84,5 +152,71 @@ impl Write for Hashing {
     fn write_str(&mut self, text: &str) -> fmt::Result {
         self.0.update(text);
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn record() -> PartRecord {
+        let setting = |name: &str, value: &str| (name.to_owned(), value.to_owned());
+        PartRecord {
+            rows: 20..60,
+            size: Resolution {
+                width: 160,
+                height: 120,
+            },
+            step: Some((3, 36)),
+            settings: vec![setting("scene", "1f0c"), setting("color", "rgb888")],
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        let record = record();
+        let words = "scanray-part rows=20..60 size=160x120 step=3/36 scene=1f0c color=rgb888";
+        assert_eq!(record.words(), words);
+        assert_eq!(PartRecord::parse(words), Some(record.clone()));
+        let single = PartRecord {
+            step: None,
+            ..record
+        };
+        assert_eq!(PartRecord::parse(&single.words()), Some(single));
+        for words in [
+            "",
+            "Created with GIMP",
+            "scanray-part",
+            "scanray-part rows=20..60",
+            "scanray-part size=160x120 rows=20..60",
+            "scanray-part rows=60..60 size=160x120",
+            "scanray-part rows=60..121 size=160x120",
+            "scanray-part rows=0..1 size=0x120",
+            "scanray-part rows=0..1 size=1x1 step=4/4",
+            "scanray-part rows=0..1 size=1x1 color",
+        ] {
+            assert_eq!(PartRecord::parse(words), None, "{words}");
+        }
+    }
+
+    #[test]
+    fn differences_are_named() {
+        let record = record();
+        let mut other = record.clone();
+        (other.rows, other.step) = (60..120, Some((4, 36)));
+        assert_eq!(record.differences(&other), [""; 0]);
+        other.size.width = 80;
+        other.step = None;
+        other.settings[1].1 = "rgb565".to_owned();
+        other.settings.push(("cutoff".to_owned(), "0.1".to_owned()));
+        assert_eq!(
+            record.differences(&other),
+            [
+                "size 80x120 instead of 160x120",
+                "turntable none instead of 36",
+                "color rgb565 instead of rgb888",
+                "cutoff 0.1 instead of none",
+            ]
+        );
     }
 }

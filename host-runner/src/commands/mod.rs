@@ -3,5 +3,6 @@
 pub(crate) mod bake;
 pub(crate) mod diff;
 pub(crate) mod inspect;
+pub(crate) mod join;
 pub(crate) mod pixel;
 pub(crate) mod render;

@@ -96,6 +96,14 @@ impl Image {
     }
 }
 
+/// The comment that [`write`] has put into a file.
+pub(crate) fn comment(file: &[u8]) -> Option<String> {
+    match file {
+        [0x89, b'P', b'N', b'G', ..] => png::comment(file),
+        _ => ppm::comment(file),
+    }
+}
+
 /// Writes an image of `width` × `height` pixels: `rows` has as many, three bytes a pixel. The comment is a
 /// line of ASCII; a GIF has none, and its pixels are kept in memory.
 ///
@@ -175,6 +183,21 @@ mod tests {
         let info = reader.next_frame(&mut pixels).unwrap();
         assert_eq!((info.width, info.height), (2, 2));
         assert_eq!(pixels, rows.concat());
+    }
+
+    #[test]
+    fn comments_are_read() {
+        for format in [ImageFormat::Ppm, ImageFormat::Png] {
+            for words in [Some("one=1 two"), None] {
+                let mut file = Vec::new();
+                let mut lines = [vec![35, 10, 35, 32, 49, 10]].into_iter();
+                write(format, &mut file, [2, 1], words, &mut lines).unwrap();
+                assert_eq!(comment(&file).as_deref(), words, "{format:?}");
+                assert_eq!(Image::decode(&file).unwrap().rgb888[..3], [35, 10, 35]);
+            }
+        }
+        assert_eq!(comment(b"P6 #"), None);
+        assert_eq!(comment(b""), None);
     }
 
     #[test]

@@ -6,6 +6,9 @@ use png::{BitDepth, ColorType, Decoder, Encoder, Transformations};
 
 use super::Image;
 
+/// The keyword of a text chunk.
+const COMMENT: &str = "Comment";
+
 pub(super) fn write(
     file: &mut dyn Write,
     width: u16,
@@ -17,7 +20,7 @@ pub(super) fn write(
     encoder.set_color(ColorType::Rgb);
     encoder.set_depth(BitDepth::Eight);
     if let Some(comment) = comment {
-        encoder.add_text_chunk("Comment".to_owned(), comment.to_owned())?;
+        encoder.add_text_chunk(COMMENT.to_owned(), comment.to_owned())?;
     }
     let mut png = encoder.write_header()?;
     let mut stream = png.stream_writer()?;
@@ -26,6 +29,14 @@ pub(super) fn write(
     }
     stream.finish()?;
     Ok(png.finish()?)
+}
+
+/// The text chunk named so.
+pub(super) fn comment(bytes: &[u8]) -> Option<String> {
+    let reader = Decoder::new(Cursor::new(bytes)).read_info().ok()?;
+    let mut chunks = reader.info().uncompressed_latin1_text.iter();
+    let chunk = chunks.find(|chunk| chunk.keyword == COMMENT)?;
+    Some(chunk.text.clone())
 }
 
 /// Reads a PNG of any kind: grey and palettes become colours, 16 bits are cut to 8.

@@ -23,6 +23,13 @@ pub(super) fn write(
     Ok(())
 }
 
+/// The comment below the first line.
+pub(super) fn comment(bytes: &[u8]) -> Option<String> {
+    let behind = bytes.strip_prefix(b"P6\n# ")?;
+    let line = behind.split(|byte| *byte == b'\n').next()?;
+    String::from_utf8(line.to_owned()).ok()
+}
+
 /// Reads a PPM or PGM file after netpbm's specification; of several pictures in a file, the first.
 ///
 /// Samples of another maximum than 255 are rounded to the nearest of 256 levels.

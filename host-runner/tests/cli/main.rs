@@ -7,6 +7,7 @@ mod errors;
 mod examples;
 mod files;
 mod inspect;
+mod join;
 mod pixel;
 mod program;
 mod render;
