@@ -223,10 +223,13 @@ impl fmt::Display for Baked<'_, Reach> {
             occluders,
             shadowed,
         } = self.0;
+        write!(f, "::scanray::Reach {{ near: [")?;
+        for set in near {
+            write!(f, "{}, ", Baked(set))?;
+        }
         write!(
             f,
-            "::scanray::Reach {{ near: {}, occluders: {}, shadowed: {shadowed} }}",
-            Baked(near),
+            "], occluders: {}, shadowed: {shadowed} }}",
             Baked(occluders)
         )
     }
@@ -265,14 +268,6 @@ impl fmt::Display for Baked<'_, TreeEntry> {
 
 impl fmt::Display for Baked<'_, ObjectSet> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let ObjectSet {
-            spheres,
-            planes,
-            triangles,
-        } = self.0;
-        write!(
-            f,
-            "::scanray::ObjectSet {{ spheres: {spheres:#x}, planes: {planes:#x}, triangles: {triangles:#x} }}"
-        )
+        write!(f, "::scanray::ObjectSet::from_bits({:#x})", self.0.bits())
     }
 }

@@ -142,8 +142,8 @@ pub use render::{
 };
 pub use scalar::Scalar;
 pub use scene::{
-    Needs, NodeContent, Object, ObjectSet, Pool, PoolUse, PoolsMut, Reach, Scene, SceneError,
-    ScenePools, Tree, TreeEntry, TreeNode,
+    Needs, NodeContent, Object, ObjectSet, Octant, Pool, PoolUse, PoolsMut, Reach, Scene,
+    SceneError, ScenePools, Tree, TreeEntry, TreeNode,
 };
 pub use tracer::{
     DEFAULT_MAX_DEPTH, DepthError, LightAtHit, Meeting, MissingStages, Nearest, Observer, RayCount,

@@ -75,6 +75,9 @@ pub trait Scalar:
     /// Absolute value.
     fn abs(self) -> Self;
 
+    /// The sign bit is set.
+    fn is_negative(self) -> bool;
+
     /// Correctly rounded square root; NaN below zero.
     fn sqrt(self) -> Self;
 
@@ -142,6 +145,11 @@ impl Scalar for f32 {
     }
 
     #[inline(always)]
+    fn is_negative(self) -> bool {
+        self.is_sign_negative()
+    }
+
+    #[inline(always)]
     fn sqrt(self) -> Self {
         hardware_sqrt(self)
     }
@@ -193,6 +201,11 @@ impl Scalar for f64 {
     #[inline(always)]
     fn abs(self) -> Self {
         f64::abs(self)
+    }
+
+    #[inline(always)]
+    fn is_negative(self) -> bool {
+        self.is_sign_negative()
     }
 
     #[inline(always)]

@@ -35,19 +35,20 @@ fn compare<T: Scalar>(scene: Scene<'_, T>, resolution: Resolution, what: impl Fn
     }
 }
 
-/// The number of pairs of a side and an object that the candidates exclude, in a scene with fewer
-/// objects than a set has bits.
+/// The number of pairs of a side and an object that the candidates exclude, a pair of one octant of
+/// directions counting an eighth, in a scene whose objects a set tells apart.
 fn excluded_pairs<T: Scalar>(scene: Scene<'_, T>) -> usize {
-    let excluded = |set: ObjectSet| {
-        scene.object_count()
-            - (set.spheres.count_ones() + set.planes.count_ones() + set.triangles.count_ones())
-                as usize
-    };
-    scene
+    let objects = scene.object_count();
+    let excluded = |set: ObjectSet| objects - set.members(objects).count();
+    let eighths: usize = scene
         .sides
         .iter()
-        .map(|side| excluded(side.near) + excluded(side.occluders))
-        .sum()
+        .map(|side| {
+            let near: usize = side.near.iter().copied().map(excluded).sum();
+            near + 8 * excluded(side.occluders)
+        })
+        .sum();
+    eighths / 8
 }
 
 fn bits<T: Scalar>(color: Color<T>) -> [u64; 3] {
@@ -240,7 +241,7 @@ fn objects_beyond_the_bits_of_a_set_are_candidates() {
             height: 12,
         };
         let scene = pools.as_scene();
-        assert!(scene.spheres.len().max(scene.triangles.len()) > ObjectSet::BITS);
+        assert!(scene.spheres.len().max(scene.triangles.len()) > ObjectSet::TOLD_APART);
         compare(scene, resolution, || "a large scene".into());
     }
 }

@@ -46,7 +46,7 @@ fn the_scenes_have_the_same_bits_with_what_they_need() {
     const BENT: Needs = STRAIGHT.union(Needs::BENDING);
     draws_with::<{ BENT.union(Needs::SKY).bits() }>("default");
     draws_with::<{ STRAIGHT.union(Needs::SKY).bits() }>("reflective");
-    draws_with::<{ STRAIGHT.union(Needs::SKY).bits() }>("window-room");
+    draws_with::<{ STRAIGHT.union(Needs::SKY).union(Needs::MANY_OBJECTS).bits() }>("window-room");
     draws_with::<{ STRAIGHT.union(Needs::PLAIN_BACKGROUND).bits() }>("pyramids");
     draws_with::<{ COMMON.union(Needs::PLAIN_BACKGROUND).bits() }>("mirror-room");
 }

@@ -7,7 +7,8 @@ mod tree;
 
 pub use needs::Needs;
 pub use pools::{Pool, PoolUse, PoolsMut, SceneError, ScenePools};
-pub use reach::{ObjectSet, Reach};
+pub(crate) use reach::Members;
+pub use reach::{ObjectSet, Octant, Reach};
 pub use tree::{NodeContent, Tree, TreeEntry, TreeNode};
 
 use crate::background::Background;
@@ -76,6 +77,19 @@ impl<'a, T: Scalar> Scene<'a, T> {
     /// Number of objects.
     pub const fn object_count(&self) -> usize {
         self.spheres.len() + self.planes.len() + self.triangles.len()
+    }
+
+    /// The object of an index among all: spheres first, then planes, then triangles.
+    pub fn object(&self, index: usize) -> Option<Object<'a, T>> {
+        let after_spheres = index.wrapping_sub(self.spheres.len());
+        let after_planes = after_spheres.wrapping_sub(self.planes.len());
+        if let Some(sphere) = self.spheres.get(index) {
+            Some(Object::Sphere(sphere))
+        } else if let Some(plane) = self.planes.get(after_spheres) {
+            Some(Object::Plane(plane))
+        } else {
+            self.triangles.get(after_planes).map(Object::Triangle)
+        }
     }
 
     /// The objects of all shapes, in the order of the file.

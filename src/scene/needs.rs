@@ -57,6 +57,8 @@ stages! {
     SKY = 10, "sky";
     /// A background of one colour.
     PLAIN_BACKGROUND = 11, "plain background";
+    /// More objects than an [`ObjectSet`](super::ObjectSet) tells apart.
+    MANY_OBJECTS = 12, "many objects";
 }
 
 impl Needs {
@@ -146,6 +148,7 @@ macro_rules! needs_of_scene {
                     .with_if(Needs::PLANES, !self.planes.is_empty())
                     .with_if(Needs::TRIANGLES, !self.triangles.is_empty())
                     .with_if(Needs::TREE, self.tree.is_some())
+                    .with_if(Needs::MANY_OBJECTS, objects > super::ObjectSet::TOLD_APART)
                     .with_if(Needs::SKY, self.background.sky)
                     .with_if(Needs::PLAIN_BACKGROUND, !self.background.sky);
                 let mut bright = false;

@@ -1,42 +1,194 @@
 //! Which objects a ray that leaves a surface can meet: the data; how it is found is told in
 //! `visibility`.
 
-/// A set of objects of a scene: one bit for each of the first 32 of a shape. Objects beyond those are
-/// in every set.
+use crate::scalar::Scalar;
+use crate::vec3::Vec3;
+
+/// A set of objects of a scene, by their index among all: spheres first, then planes, then triangles.
+///
+/// The first 31 are told apart; those beyond are in it all together or not at all.
+// One bit each, the first object's the highest: counting leading zeros is an instruction of most cores.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ObjectSet {
-    /// Spheres, by their index in the scene.
-    pub spheres: u32,
-    /// Planes.
-    pub planes: u32,
-    /// Triangles.
-    pub triangles: u32,
-}
+pub struct ObjectSet(u32);
+
+/// The bit of the first object.
+const FIRST: u32 = 1 << (u32::BITS - 1);
 
 impl ObjectSet {
-    /// Number of objects of a shape that a set tells apart.
-    pub const BITS: usize = u32::BITS as usize;
+    /// Number of objects that a set tells apart.
+    pub const TOLD_APART: usize = u32::BITS as usize - 1;
 
     /// Every object.
-    pub const ALL: Self = Self {
-        spheres: u32::MAX,
-        planes: u32::MAX,
-        triangles: u32::MAX,
-    };
+    pub const ALL: Self = Self(u32::MAX);
 
-    /// No object but those that are in every set.
-    pub const NONE: Self = Self {
-        spheres: 0,
-        planes: 0,
-        triangles: 0,
-    };
+    /// No object.
+    pub const NONE: Self = Self(0);
+
+    /// The set of a number: for baked scenes.
+    pub const fn from_bits(bits: u32) -> Self {
+        Self(bits)
+    }
+
+    /// The set as a number: the highest bit is the first object's.
+    pub const fn bits(self) -> u32 {
+        self.0
+    }
+
+    const fn bit(index: usize) -> u32 {
+        let place = if index < Self::TOLD_APART {
+            index
+        } else {
+            Self::TOLD_APART
+        };
+        FIRST >> place
+    }
+
+    /// Whether the object of an index is in it.
+    pub const fn contains(self, index: usize) -> bool {
+        self.0 & Self::bit(index) != 0
+    }
+
+    /// The set with the object of an index.
+    #[must_use]
+    pub const fn with(self, index: usize) -> Self {
+        Self(self.0 | Self::bit(index))
+    }
+
+    /// What is in either set.
+    #[must_use]
+    pub const fn union(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// What is in both sets.
+    #[must_use]
+    pub const fn intersection(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+
+    /// The indices of its members in ascending order, in a scene of `count` objects. Of a set that was not
+    /// made for the scene some may be `count` or larger.
+    pub fn members(self, count: usize) -> impl Iterator<Item = usize> {
+        let mut members = self.members_among(true);
+        core::iter::from_fn(move || {
+            let index = members.index();
+            members.advance();
+            (index < count).then_some(index)
+        })
+    }
+
+    /// A walk through its members; `many` is false only where all objects are told apart.
+    #[inline(always)]
+    pub(crate) fn members_among(self, many: bool) -> Members {
+        Members {
+            left: self.0,
+            beyond: 0,
+            many,
+        }
+    }
+}
+
+/// A walk through the members of a set.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Members {
+    left: u32,
+    /// Members beyond those told apart that are passed.
+    beyond: usize,
+    many: bool,
+}
+
+impl Members {
+    /// The index of the member it has come to, beyond all objects at the end.
+    #[inline(always)]
+    pub(crate) fn index(&self) -> usize {
+        let place = self.left.leading_zeros() as usize;
+        if self.many && self.left == 1 {
+            ObjectSet::TOLD_APART + self.beyond
+        } else if self.many && self.left == 0 {
+            usize::MAX
+        } else {
+            place
+        }
+    }
+
+    /// Goes on to the next.
+    #[inline(always)]
+    pub(crate) fn advance(&mut self) {
+        if self.many && self.left == 1 {
+            self.beyond += 1;
+        } else {
+            self.left &= !(FIRST.unbounded_shr(self.left.leading_zeros()));
+        }
+    }
+
+    /// Visits the members that are objects of one shape, which `object` finds by their index, as long as
+    /// `visit` gives false; tells whether it gave true. One call for each shape, in their order.
+    ///
+    /// Nothing of `visit` happens before there is a member: with a single object of a shape all of its
+    /// tests but the ray is constant, and a compiler moves what it can out of a loop that it enters anyway.
+    #[inline(always)]
+    pub(crate) fn walk<O>(
+        &mut self,
+        object: impl Fn(usize) -> Option<O>,
+        mut visit: impl FnMut(usize, O) -> bool,
+    ) -> bool {
+        let Some(mut member) = object(self.index()) else {
+            return false;
+        };
+        loop {
+            if visit(self.index(), member) {
+                return true;
+            }
+            self.advance();
+            match object(self.index()) {
+                Some(next) => member = next,
+                None => return false,
+            }
+        }
+    }
+}
+
+/// The eight octants by the signs of the components of a direction; ±0 belongs to either side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Octant(u8);
+
+impl Octant {
+    /// All of them, in the order of their indices.
+    pub const ALL: [Self; 8] = [
+        Self(0),
+        Self(1),
+        Self(2),
+        Self(3),
+        Self(4),
+        Self(5),
+        Self(6),
+        Self(7),
+    ];
+
+    /// The octant of a direction.
+    #[inline(always)]
+    pub fn of<T: Scalar>(direction: Vec3<T>) -> Self {
+        let sign = |component: T| component.is_negative() as u8;
+        Self(sign(direction.x) | sign(direction.y) << 1 | sign(direction.z) << 2)
+    }
+
+    /// Whether its directions have components ≤ 0 along x, y and z; ≥ 0 otherwise.
+    pub const fn is_negative(self) -> [bool; 3] {
+        [self.0 & 1 != 0, self.0 & 2 != 0, self.0 & 4 != 0]
+    }
+
+    /// Its place in [`Octant::ALL`].
+    #[inline(always)]
+    pub const fn index(self) -> usize {
+        self.0 as usize
+    }
 }
 
 /// What rays can meet that leave one side of an object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reach {
-    /// Objects that a mirrored or refracted ray can meet first.
-    pub near: ObjectSet,
+    /// Objects that a mirrored or refracted ray can meet first, by the octant of its direction.
+    pub near: [ObjectSet; 8],
     /// Objects that may stand between this side and a light.
     pub occluders: ObjectSet,
     /// No light reaches this side.
@@ -46,8 +198,56 @@ pub struct Reach {
 impl Reach {
     /// Anything may be met.
     pub const ALL: Self = Self {
-        near: ObjectSet::ALL,
+        near: [ObjectSet::ALL; 8],
         occluders: ObjectSet::ALL,
         shadowed: false,
     };
+
+    /// Objects that a mirrored or refracted ray of a direction can meet first.
+    #[inline(always)]
+    pub fn near<T: Scalar>(&self, direction: Vec3<T>) -> ObjectSet {
+        // The index is below 8.
+        self.near[Octant::of(direction).index() & 7]
+    }
+
+    /// Objects that a mirrored or refracted ray of any direction can meet first.
+    pub fn near_in_any_direction(&self) -> ObjectSet {
+        self.near
+            .iter()
+            .fold(ObjectSet::NONE, |all, octant| all.union(*octant))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn members(set: ObjectSet, count: usize) -> std::vec::Vec<usize> {
+        set.members(count).collect()
+    }
+
+    #[test]
+    fn tells_the_first_objects_apart_and_holds_those_beyond_together() {
+        let set = ObjectSet::NONE.with(0).with(5).with(30);
+        assert_eq!(members(set, 40), [0, 5, 30]);
+        assert!(set.contains(5) && !set.contains(6) && !set.contains(31) && !set.contains(39));
+        let beyond = set.with(33);
+        assert_eq!(members(beyond, 34), [0, 5, 30, 31, 32, 33]);
+        assert!(beyond.contains(31) && beyond.contains(1000));
+        assert_eq!(members(ObjectSet::NONE, 40), []);
+        assert_eq!(
+            members(ObjectSet::ALL, 40),
+            (0..40).collect::<std::vec::Vec<_>>()
+        );
+    }
+
+    #[test]
+    fn directions_belong_to_the_octant_of_their_signs() {
+        for octant in Octant::ALL {
+            let signed = |is_negative| if is_negative { -0.5_f32 } else { 0.5 };
+            let [x, y, z] = octant.is_negative().map(signed);
+            assert_eq!(Octant::of(Vec3::new(x, y, z)), octant);
+        }
+        assert_eq!(Octant::of(Vec3::new(0.0_f64, -0.0, -1.0)).index(), 6);
+    }
 }

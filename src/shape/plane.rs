@@ -64,11 +64,17 @@ impl<T: Scalar> Plane<T> {
     /// it does not cross it.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray<T>, t_max: T) -> Option<T> {
+        self.meet(ray).filter(|t| *t <= t_max)
+    }
+
+    /// [`Plane::intersect`] without a limit; the distance may be infinite.
+    #[inline(always)]
+    pub(crate) fn meet(&self, ray: &Ray<T>) -> Option<T> {
         if ray.leaves.object() == self.surface.number {
             return None;
         }
         let t = (self.height - self.normal.dot(ray.origin)) / self.normal.dot(ray.direction);
-        (t > T::ZERO && t <= t_max).then_some(t)
+        (t > T::ZERO).then_some(t)
     }
 
     /// Whether the ray crosses the plane within `0 < t < t_max`.

@@ -119,10 +119,19 @@ impl<T: Scalar> Sphere<T> {
     /// Distance of the nearest crossing within `0 < t ≤ t_max`.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray<T>, t_max: T) -> Option<T> {
+        self.meet(ray).filter(|t| *t <= t_max)
+    }
+
+    /// [`Sphere::intersect`] without a limit.
+    #[inline(always)]
+    pub(crate) fn meet(&self, ray: &Ray<T>) -> Option<T> {
         let (near, far) = self.crossings(ray)?;
         // From inside the sphere only the far crossing lies ahead.
-        let t = if near > T::ZERO { near } else { far };
-        (t > T::ZERO && t <= t_max).then_some(t)
+        if near > T::ZERO {
+            Some(near)
+        } else {
+            (far > T::ZERO).then_some(far)
+        }
     }
 
     /// Whether the ray crosses the surface anywhere within `0 < t < t_max`.

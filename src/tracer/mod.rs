@@ -16,7 +16,7 @@ use crate::color::Color;
 use crate::material::{Interface, Material};
 use crate::ray::{ObjectNumber, Ray, Side};
 use crate::scalar::Scalar;
-use crate::scene::{Needs, Object, ObjectSet, Reach, Scene};
+use crate::scene::{Members, Needs, Object, ObjectSet, Reach, Scene};
 use crate::shape::{Barycentric, Plane, Sphere, Surface, Triangle};
 use crate::vec3::Vec3;
 use crate::visibility::visible_in_row;
@@ -151,38 +151,46 @@ pub struct Nearest<'a, T = f32> {
     pub object: Object<'a, T>,
 }
 
-/// The closest meeting so far. At most one of the objects is there; three options instead of an enum
-/// become plain branches, which are foreseen better than a jump table.
+/// The closest meeting so far.
 #[derive(Clone, Copy)]
-struct Closest<'a, T> {
+struct Closest<T> {
     /// Distance along the ray; the largest number if there is no meeting yet.
     t: T,
     /// Number of the object.
     number: ObjectNumber,
-    sphere: Option<&'a Sphere<T>>,
-    plane: Option<&'a Plane<T>>,
-    triangle: Option<(&'a Triangle<T>, Barycentric<T>)>,
+    /// Its index among all objects; beyond all if there is none.
+    index: usize,
+    /// Where on it, if it is a triangle.
+    place: Barycentric<T>,
 }
 
-impl<T: Scalar> Closest<'_, T> {
+impl<T: Scalar> Closest<T> {
     const NONE: Self = Self {
         t: T::MAX,
         number: ObjectNumber::MAX,
-        sphere: None,
-        plane: None,
-        triangle: None,
+        index: usize::MAX,
+        place: Barycentric {
+            v2: T::ZERO,
+            v3: T::ZERO,
+        },
     };
 
-    /// Whether a meeting at `t ≤ self.t` with an object comes before the closest so far, and if so,
-    /// makes it the closest: of two at exactly the same distance the first in the file wins.
+    /// Takes a meeting if it comes before the closest so far, and tells whether it did: of
+    /// two at exactly the same distance the first in the file wins.
     #[inline(always)]
-    fn yields_to(&mut self, t: T, surface: Surface) -> bool {
-        let is_closer = t < self.t || surface.number < self.number;
-        if is_closer {
-            self.t = t;
-            self.number = surface.number;
+    fn offer(&mut self, t: T, index: usize, surface: Surface) -> bool {
+        if !(t < self.t || (t == self.t && surface.number < self.number)) {
+            return false;
         }
-        is_closer
+        self.take(t, index, surface);
+        true
+    }
+
+    #[inline(always)]
+    fn take(&mut self, t: T, index: usize, surface: Surface) {
+        self.t = t;
+        self.number = surface.number;
+        self.index = index;
     }
 }
 
@@ -293,17 +301,45 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
     /// The object a ray meets first; of several at exactly the same distance the first in the file.
     pub fn nearest(&self, ray: &Ray<T>) -> Option<Nearest<'a, T>> {
         let closest = self.closest(ray, ObjectSet::ALL, &mut ());
-        let object = if let Some(sphere) = closest.sphere {
-            Object::Sphere(sphere)
-        } else if let Some(plane) = closest.plane {
-            Object::Plane(plane)
-        } else {
-            Object::Triangle(closest.triangle?.0)
-        };
         Some(Nearest {
             t: closest.t,
-            object,
+            object: self.scene.object(closest.index)?,
         })
+    }
+
+    /// The members of a set, by their indices.
+    #[inline(always)]
+    fn members(&self, set: ObjectSet) -> Members {
+        set.members_among(stage(NEEDS, Needs::MANY_OBJECTS))
+    }
+
+    #[inline(always)]
+    fn sphere(&self, index: usize) -> Option<&'a Sphere<T>> {
+        if stage(NEEDS, Needs::SPHERES) {
+            self.scene.spheres.get(index)
+        } else {
+            None
+        }
+    }
+
+    #[inline(always)]
+    fn plane(&self, index: usize) -> Option<&'a Plane<T>> {
+        if stage(NEEDS, Needs::PLANES) {
+            let index = index.wrapping_sub(self.scene.spheres.len());
+            self.scene.planes.get(index)
+        } else {
+            None
+        }
+    }
+
+    #[inline(always)]
+    fn triangle(&self, index: usize) -> Option<&'a Triangle<T>> {
+        if stage(NEEDS, Needs::TRIANGLES) {
+            let index = index.wrapping_sub(self.scene.spheres.len() + self.scene.planes.len());
+            self.scene.triangles.get(index)
+        } else {
+            None
+        }
     }
 
     #[inline(always)]
@@ -312,43 +348,48 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         ray: &Ray<T>,
         candidates: ObjectSet,
         observer: &mut impl Observer<T>,
-    ) -> Closest<'a, T> {
+    ) -> Closest<T> {
         let mut closest = Closest::NONE;
-        let by_tree = self.has_tree();
-        if by_tree {
+        if self.has_tree() {
             self.closest_in_tree(ray, &mut closest, observer);
+            return closest;
         }
-        if stage(NEEDS, Needs::SPHERES) && !by_tree {
-            for sphere in members(self.scene.spheres, candidates.spheres) {
+        let mut members = self.members(candidates);
+        members.walk(
+            |index| self.sphere(index),
+            |index, sphere| {
                 observer.test_object(Object::Sphere(sphere), ray, closest.t);
-                if let Some(t) = sphere.intersect(ray, closest.t)
-                    && closest.yields_to(t, sphere.surface())
+                // Spheres come first, in the order of the file: of two at one distance the first stays.
+                if let Some(t) = sphere.meet(ray)
+                    && t < closest.t
                 {
-                    closest.sphere = Some(sphere);
+                    closest.take(t, index, sphere.surface());
                 }
-            }
-        }
-        if stage(NEEDS, Needs::PLANES) {
-            for plane in members(self.scene.planes, candidates.planes) {
+                false
+            },
+        );
+        members.walk(
+            |index| self.plane(index),
+            |index, plane| {
                 observer.test_object(Object::Plane(plane), ray, closest.t);
-                if let Some(t) = plane.intersect(ray, closest.t)
-                    && closest.yields_to(t, plane.surface())
-                {
-                    (closest.sphere, closest.plane) = (None, Some(plane));
+                if let Some(t) = plane.meet(ray) {
+                    closest.offer(t, index, plane.surface());
                 }
-            }
-        }
-        if stage(NEEDS, Needs::TRIANGLES) && !by_tree {
-            for triangle in members(self.scene.triangles, candidates.triangles) {
+                false
+            },
+        );
+        members.walk(
+            |index| self.triangle(index),
+            |index, triangle| {
                 observer.test_object(Object::Triangle(triangle), ray, closest.t);
                 if let Some((t, place)) = triangle.intersect(ray, closest.t)
-                    && closest.yields_to(t, triangle.surface())
+                    && closest.offer(t, index, triangle.surface())
                 {
-                    (closest.sphere, closest.plane) = (None, None);
-                    closest.triangle = Some((triangle, place));
+                    closest.place = place;
                 }
-            }
-        }
+                false
+            },
+        );
         closest
     }
 
@@ -365,39 +406,31 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         candidates: ObjectSet,
         observer: &mut impl Observer<T>,
     ) -> bool {
-        let casts_shadow = |surface: Surface| match self.material(surface) {
-            Some(material) => material.casts_shadow(),
-            None => true,
-        };
-        let by_tree = self.has_tree();
-        if by_tree && self.occluded_in_tree(ray, t_max, casts_shadow, observer) {
-            return true;
+        let casts_shadow =
+            |surface: Surface| self.material(surface).is_none_or(Material::casts_shadow);
+        if self.has_tree() {
+            return self.occluded_in_tree(ray, t_max, casts_shadow, observer);
         }
-        if stage(NEEDS, Needs::SPHERES) && !by_tree {
-            for sphere in members(self.scene.spheres, candidates.spheres) {
+        let mut members = self.members(candidates);
+        members.walk(
+            |index| self.sphere(index),
+            |_, sphere| {
                 observer.test_object(Object::Sphere(sphere), ray, t_max);
-                if sphere.occludes(ray, t_max) && casts_shadow(sphere.surface()) {
-                    return true;
-                }
-            }
-        }
-        if stage(NEEDS, Needs::PLANES) {
-            for plane in members(self.scene.planes, candidates.planes) {
+                sphere.occludes(ray, t_max) && casts_shadow(sphere.surface())
+            },
+        ) || members.walk(
+            |index| self.plane(index),
+            |_, plane| {
                 observer.test_object(Object::Plane(plane), ray, t_max);
-                if plane.occludes(ray, t_max) && casts_shadow(plane.surface()) {
-                    return true;
-                }
-            }
-        }
-        if stage(NEEDS, Needs::TRIANGLES) && !by_tree {
-            for triangle in members(self.scene.triangles, candidates.triangles) {
+                plane.occludes(ray, t_max) && casts_shadow(plane.surface())
+            },
+        ) || members.walk(
+            |index| self.triangle(index),
+            |_, triangle| {
                 observer.test_object(Object::Triangle(triangle), ray, t_max);
-                if triangle.occludes(ray, t_max) && casts_shadow(triangle.surface()) {
-                    return true;
-                }
-            }
-        }
-        false
+                triangle.occludes(ray, t_max) && casts_shadow(triangle.surface())
+            },
+        )
     }
 
     /// What rays can meet that leave a side of an object.
@@ -479,7 +512,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                                     }
                                     throughput = throughput * weight;
                                 }
-                                candidates = self.reach(ray.leaves).near;
+                                candidates = self.reach(ray.leaves).near(ray.direction);
                                 continue;
                             }
                         }
@@ -505,7 +538,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                     }
                     kind = RayKind::Refracted;
                     ray = branch.ray;
-                    candidates = self.reach(ray.leaves).near;
+                    candidates = self.reach(ray.leaves).near(ray.direction);
                     break;
                 }
                 color = frame.color.clamp();
@@ -523,13 +556,13 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         observer: &mut impl Observer<T>,
     ) -> Option<Hit<'a, T>> {
         let closest = self.closest(ray, candidates, observer);
-        let (point, surface) = if let Some(sphere) = closest.sphere {
+        let (point, surface) = if let Some(sphere) = self.sphere(closest.index) {
             (sphere.surface_point(ray, closest.t), sphere.surface())
-        } else if let Some(plane) = closest.plane {
+        } else if let Some(plane) = self.plane(closest.index) {
             (plane.surface_point(ray, closest.t), plane.surface())
         } else {
-            let (triangle, place) = closest.triangle?;
-            (triangle.surface_point(place), triangle.surface())
+            let triangle = self.triangle(closest.index)?;
+            (triangle.surface_point(closest.place), triangle.surface())
         };
         let slope = point.normal.dot(ray.direction);
         let entering = slope <= T::ZERO;
@@ -684,18 +717,6 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             observer,
         )
     }
-}
-
-/// The members of a set, among the objects of one shape, in their order.
-#[inline(always)]
-fn members<O>(objects: &[O], set: u32) -> impl Iterator<Item = &O> {
-    let mut set = set;
-    objects.iter().filter(move |_| {
-        let is_member = set & 1 != 0;
-        // Ones move in from above: objects without a bit are in every set.
-        set = set >> 1 | 1 << (u32::BITS - 1);
-        is_member
-    })
 }
 
 macro_rules! specialize {

@@ -14,14 +14,15 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         stage(NEEDS, Needs::TREE) && self.scene.tree.is_some()
     }
 
-    /// Makes the closest sphere or triangle the closest object.
+    /// Makes the closest object of all the closest.
     #[inline(never)]
     pub(super) fn closest_in_tree(
         &self,
         ray: &Ray<T>,
-        closest: &mut Closest<'a, T>,
+        closest: &mut Closest<T>,
         observer: &mut impl Observer<T>,
     ) {
+        let before_triangles = self.scene.spheres.len() + self.scene.planes.len();
         let mut walk = Walk::new(self.scene.tree, ray);
         while let Some(leaf) = walk.next_leaf(closest.t, || observer.test(TestKind::Box)) {
             for entry in leaf {
@@ -30,27 +31,34 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                         && let Some(sphere) = self.scene.spheres.get(entry.index())
                     {
                         observer.test_object(Object::Sphere(sphere), ray, closest.t);
-                        if let Some(t) = sphere.intersect(ray, closest.t)
-                            && closest.yields_to(t, sphere.surface())
-                        {
-                            (closest.sphere, closest.triangle) = (Some(sphere), None);
+                        if let Some(t) = sphere.meet(ray) {
+                            closest.offer(t, entry.index(), sphere.surface());
                         }
                     }
                 } else if stage(NEEDS, Needs::TRIANGLES)
                     && let Some(triangle) = self.scene.triangles.get(entry.index())
                 {
                     observer.test_object(Object::Triangle(triangle), ray, closest.t);
+                    let index = before_triangles + entry.index();
                     if let Some((t, place)) = triangle.intersect(ray, closest.t)
-                        && closest.yields_to(t, triangle.surface())
+                        && closest.offer(t, index, triangle.surface())
                     {
-                        (closest.sphere, closest.triangle) = (None, Some((triangle, place)));
+                        closest.place = place;
                     }
+                }
+            }
+        }
+        if stage(NEEDS, Needs::PLANES) {
+            for (index, plane) in (self.scene.spheres.len()..).zip(self.scene.planes) {
+                observer.test_object(Object::Plane(plane), ray, closest.t);
+                if let Some(t) = plane.meet(ray) {
+                    closest.offer(t, index, plane.surface());
                 }
             }
         }
     }
 
-    /// Whether a sphere or triangle that casts a shadow lies on the ray within `0 < t < t_max`.
+    /// Whether an object that casts a shadow lies on the ray within `0 < t < t_max`.
     #[inline(never)]
     pub(super) fn occluded_in_tree(
         &self,
@@ -81,6 +89,10 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                 }
             }
         }
-        false
+        stage(NEEDS, Needs::PLANES)
+            && self.scene.planes.iter().any(|plane| {
+                observer.test_object(Object::Plane(plane), ray, t_max);
+                plane.occludes(ray, t_max) && casts_shadow(plane.surface())
+            })
     }
 }

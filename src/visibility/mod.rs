@@ -65,22 +65,30 @@ fn collect<T: Scalar>(
     scene: &Scene<'_, T>,
     mut holds: impl FnMut(Object<'_, T>) -> bool,
 ) -> ObjectSet {
+    const END: usize = ObjectSet::TOLD_APART;
+    let (planes, triangles) = (
+        scene.spheres.len(),
+        scene.spheres.len() + scene.planes.len(),
+    );
     let mut set = ObjectSet::NONE;
-    let bits = || (0..ObjectSet::BITS).map(|bit| 1_u32 << bit);
-    for (bit, sphere) in bits().zip(scene.spheres) {
+    for (index, sphere) in (0..END).zip(scene.spheres) {
         if holds(Object::Sphere(sphere)) {
-            set.spheres |= bit;
+            set = set.with(index);
         }
     }
-    for (bit, plane) in bits().zip(scene.planes) {
+    for (index, plane) in (planes..END).zip(scene.planes) {
         if holds(Object::Plane(plane)) {
-            set.planes |= bit;
+            set = set.with(index);
         }
     }
-    for (bit, triangle) in bits().zip(scene.triangles) {
+    for (index, triangle) in (triangles..END).zip(scene.triangles) {
         if holds(Object::Triangle(triangle)) {
-            set.triangles |= bit;
+            set = set.with(index);
         }
+    }
+    if scene.object_count() > END {
+        // What is not told apart is in every set.
+        set = set.with(END);
     }
     set
 }

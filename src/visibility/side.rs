@@ -3,7 +3,7 @@
 use super::{Ball, collect, margin, size};
 use crate::light::Light;
 use crate::scalar::Scalar;
-use crate::scene::{Object, PoolsMut, Reach, Scene};
+use crate::scene::{Object, Octant, PoolsMut, Reach, Scene};
 use crate::shape::{Plane, Triangle};
 use crate::vec3::Vec3;
 
@@ -17,12 +17,17 @@ impl<T: Scalar> PoolsMut<'_, T> {
 /// The reach of the front and the back of an object.
 pub(super) fn sides<T: Scalar>(scene: &Scene<'_, T>, object: Object<'_, T>) -> [Reach; 2] {
     let reach = |front: bool| Reach {
-        near: collect(scene, |other| may_meet(object, front, other)),
+        near: Octant::ALL.map(|octant| {
+            collect(scene, |other| {
+                may_meet(object, front, other) && may_lie_ahead(object, octant, other)
+            })
+        }),
         occluders: collect(scene, |other| {
-            scene
-                .lights
-                .iter()
-                .any(|light| may_shade(object, front, light, other))
+            casts_shadow(scene, other)
+                && scene
+                    .lights
+                    .iter()
+                    .any(|light| may_shade(object, front, light, other))
         }),
         shadowed: is_shadowed(scene, object, front),
     };
@@ -44,6 +49,55 @@ fn may_meet<T: Scalar>(from: Object<'_, T>, front: bool, other: Object<'_, T>) -
         Object::Plane(_) => !is_same(from, other),
         Object::Triangle(triangle) => !is_same(from, other) && !lies_behind(triangle, front, other),
     }
+}
+
+/// Whether a ray that leaves an object in a direction of an octant can come to `other`.
+fn may_lie_ahead<T: Scalar>(from: Object<'_, T>, octant: Octant, other: Object<'_, T>) -> bool {
+    let Some(ball) = Ball::around(from) else {
+        return true;
+    };
+    match (other, Ball::around(other)) {
+        (Object::Plane(plane), _) => {
+            // Not where the whole ball lies above the plane, and all directions lead up; or both down.
+            let above = height(plane, ball.center);
+            let is_apart = above.abs() > ball.radius + plane_margin(plane, ball);
+            !(is_apart && leads_along(octant, plane.normal(), above > T::ZERO))
+        }
+        // A ray from one ball meets the other only if a ray from the origin meets a ball with both radii
+        // around the way from one centre to the other; `across` is that ball's distance from the octant.
+        (_, Some(other)) => {
+            let across = outside_part(octant, other.center - ball.center);
+            let radii = ball.radius + other.radius;
+            let reach = radii + margin(size(ball.center) + size(other.center), radii);
+            !(across.dot(across).sqrt() > reach)
+        }
+        _ => true,
+    }
+}
+
+/// Whether no direction of an octant has a negative scalar product with a vector, or with its opposite if
+/// `along` is false. That holds for the rounded product too, whose terms have one sign.
+fn leads_along<T: Scalar>(octant: Octant, vector: Vec3<T>, along: bool) -> bool {
+    let vector = if along { vector } else { -vector };
+    let outside = outside_part(octant, vector);
+    outside.dot(outside) == T::ZERO
+}
+
+/// The vector from the nearest point of an octant to a point.
+fn outside_part<T: Scalar>(octant: Octant, point: Vec3<T>) -> Vec3<T> {
+    let [x, y, z] = octant.is_negative();
+    let outside = |coordinate: T, is_negative: bool| {
+        if (coordinate < T::ZERO) == is_negative {
+            T::ZERO
+        } else {
+            coordinate
+        }
+    };
+    Vec3::new(
+        outside(point.x, x),
+        outside(point.y, y),
+        outside(point.z, z),
+    )
 }
 
 /// Whether something of an object may lie in the ball around another.
@@ -162,16 +216,20 @@ fn is_shadowed<T: Scalar>(scene: &Scene<'_, T>, object: Object<'_, T>, front: bo
     let Object::Sphere(sphere) = object else {
         return false;
     };
-    let casts_shadow = scene
-        .materials
-        .get(sphere.surface().material as usize)
-        .is_some_and(|material| material.casts_shadow());
     !front
-        && casts_shadow
+        && casts_shadow(scene, object)
         && scene.lights.iter().all(|light| {
             let to_light = light.position - sphere.center();
             let lengths = size(light.position) + size(sphere.center());
             let reach = sphere.radius() + margin(lengths, sphere.radius());
             to_light.dot(to_light).sqrt() > reach
         })
+}
+
+/// Whether an object casts a shadow; one without a material does.
+fn casts_shadow<T: Scalar>(scene: &Scene<'_, T>, object: Object<'_, T>) -> bool {
+    scene
+        .materials
+        .get(object.surface().material as usize)
+        .is_none_or(|material| material.casts_shadow())
 }

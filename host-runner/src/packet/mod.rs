@@ -71,6 +71,8 @@ struct Target<'a> {
     material: Option<&'a Material>,
     /// Of its front and its back.
     reach: [&'a Reach; 2],
+    /// What rays can meet that leave them in any direction: those of a vector have several.
+    near: [ObjectSet; 2],
 }
 
 impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
@@ -107,13 +109,30 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
                 Object::Plane(plane) => list!(planes, plane),
                 Object::Triangle(triangle) => list!(triangles, triangle),
             }
+            let sides = [true, false].map(|front| reach(Side::new(surface.number, front)));
             packets.objects.push(Target {
                 object,
                 material: material(surface),
-                reach: [true, false].map(|front| reach(Side::new(surface.number, front))),
+                reach: sides,
+                near: sides.map(Reach::near_in_any_direction),
             });
         }
         packets
+    }
+
+    #[inline(always)]
+    fn spheres_among(&self, set: ObjectSet) -> impl Iterator<Item = &Listed<'a, Sphere>> {
+        members(&self.spheres, 0, set)
+    }
+
+    #[inline(always)]
+    fn planes_among(&self, set: ObjectSet) -> impl Iterator<Item = &Listed<'a, Plane>> {
+        members(&self.planes, self.spheres.len(), set)
+    }
+
+    #[inline(always)]
+    fn triangles_among(&self, set: ObjectSet) -> impl Iterator<Item = &Listed<'a, Triangle>> {
+        members(&self.triangles, self.spheres.len() + self.planes.len(), set)
     }
 
     /// The linear colours of the part of row `y` that starts at column `x`: those of `Tracer::pixel`.
@@ -252,22 +271,22 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
                 };
                 let leaves = batch.leaves[at];
                 let candidates = match self.objects.get(leaves as usize >> 1) {
-                    Some(target) => target.reach[leaves as usize & 1].near,
+                    Some(target) => target.near[leaves as usize & 1],
                     None => visible,
                 };
                 let mut closest = Closest::none(simd);
-                for sphere in members(&self.spheres, candidates.spheres) {
+                for sphere in self.spheres_among(candidates) {
                     if let Some(t) = shapes::meet_sphere(simd, sphere.shape, &rays) {
                         closest.offer(simd, t, Mask::splat(simd, true), sphere.index);
                     }
                 }
-                for plane in members(&self.planes, candidates.planes) {
+                for plane in self.planes_among(candidates) {
                     if plane.index != leaves >> 1 {
                         let t = shapes::meet_plane(simd, plane.shape, &rays);
                         closest.offer(simd, t, Mask::splat(simd, true), plane.index);
                     }
                 }
-                for triangle in members(&self.triangles, candidates.triangles) {
+                for triangle in self.triangles_among(candidates) {
                     if triangle.index != leaves >> 1
                         && let Some(meeting) = shapes::meet_triangle(simd, triangle.shape, &rays)
                     {
@@ -345,17 +364,13 @@ impl<S: Simd> Closest<S> {
     }
 }
 
-/// The members of a set, among the objects of one shape, in their order.
+/// The members of a set, among the objects of one shape, the first of which has an index among all.
 #[inline(always)]
-fn members<O>(objects: &[O], set: u32) -> impl Iterator<Item = &O> {
-    let (told_apart, always) = objects.split_at(objects.len().min(ObjectSet::BITS));
-    let mut set = set;
-    let chosen = std::iter::from_fn(move || {
-        let index = set.trailing_zeros();
-        set &= set.wrapping_sub(1);
-        told_apart.get(index as usize)
-    });
-    chosen.chain(always)
+fn members<O>(objects: &[O], first: usize, set: ObjectSet) -> impl Iterator<Item = &O> {
+    (first..)
+        .zip(objects)
+        .filter(move |(index, _)| set.contains(*index))
+        .map(|(_, object)| object)
 }
 
 /// A scanline is a row that is traced already, so that [`Picture`](scanray::Picture) draws packets like

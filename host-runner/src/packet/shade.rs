@@ -7,7 +7,7 @@ use super::batch::{Batch, Lanes};
 use super::lanes::{
     Colors, Indices, Mask, Numbers, Rays, Vec3s, first_lanes, power_of_whole, powf,
 };
-use super::{PacketTracer, Target, members, shapes, splat};
+use super::{PacketTracer, Target, shapes, splat};
 
 /// Meetings with the surface of one object, ready for shading. `Hit` of the core.
 #[derive(Clone, Copy)]
@@ -164,18 +164,18 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
             #[inline(always)]
             || {
                 let mut occluded = !lanes;
-                for sphere in members(&self.spheres, candidates.spheres) {
+                for sphere in self.spheres_among(candidates) {
                     if sphere.casts_shadow {
                         occluded |= shapes::sphere_occludes(simd, sphere.shape, rays, t_max);
                     }
                 }
-                for plane in members(&self.planes, candidates.planes) {
+                for plane in self.planes_among(candidates) {
                     if plane.casts_shadow && plane.index != leaves {
                         let t = shapes::meet_plane(simd, plane.shape, rays);
                         occluded |= t.simd_gt(0.0) & t.simd_lt(t_max);
                     }
                 }
-                for triangle in members(&self.triangles, candidates.triangles) {
+                for triangle in self.triangles_among(candidates) {
                     if occluded.all_true() {
                         break;
                     }
