@@ -5,10 +5,14 @@ use std::path::Path;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{CommandFactory, Parser, Subcommand};
 
+use crate::commands::ask::AskArgs;
 use crate::commands::bake::BakeArgs;
+use crate::commands::completions::CompletionsArgs;
 use crate::commands::diff::DiffArgs;
+use crate::commands::fmt::FmtArgs;
 use crate::commands::inspect::InspectArgs;
 use crate::commands::join::JoinArgs;
+use crate::commands::man::ManArgs;
 use crate::commands::pixel::PixelArgs;
 use crate::commands::render::RenderArgs;
 
@@ -63,6 +67,14 @@ pub(crate) enum Command {
     Pixel(PixelArgs),
     /// Compare two pictures: numbers, a picture of the differences
     Diff(DiffArgs),
+    /// Rewrite scenes in canonical form, comments kept
+    Fmt(FmtArgs),
+    /// Ask which scene to draw: the dialogue of the original program
+    Ask(AskArgs),
+    /// Print what a shell needs to complete command lines
+    Completions(CompletionsArgs),
+    /// Print or write manual pages
+    Man(ManArgs),
 }
 
 impl Cli {

@@ -1,5 +1,6 @@
 //! scanray on the desktop: draws the scenes that devices draw, and answers questions about them.
 
+mod canonical;
 mod canvas;
 mod cli;
 mod commands;
@@ -27,7 +28,7 @@ mod turntable;
 use std::process::ExitCode;
 
 use cli::{Cli, Command};
-use commands::{bake, diff, inspect, join, pixel, render};
+use commands::{ask, bake, completions, diff, fmt, inspect, join, man, pixel, render};
 
 fn main() -> ExitCode {
     let result = match Cli::from_arguments() {
@@ -37,6 +38,10 @@ fn main() -> ExitCode {
         Command::Bake(args) => bake::run(&args),
         Command::Pixel(args) => pixel::run(&args),
         Command::Diff(args) => diff::run(&args),
+        Command::Fmt(args) => fmt::run(&args),
+        Command::Ask(args) => ask::run(&args),
+        Command::Completions(args) => completions::run(&args),
+        Command::Man(args) => man::run(&args),
     };
     result.unwrap_or_else(|failure| failure.report())
 }

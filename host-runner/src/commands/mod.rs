@@ -1,8 +1,12 @@
 //! The commands, one file each.
 
+pub(crate) mod ask;
 pub(crate) mod bake;
+pub(crate) mod completions;
 pub(crate) mod diff;
+pub(crate) mod fmt;
 pub(crate) mod inspect;
 pub(crate) mod join;
+pub(crate) mod man;
 pub(crate) mod pixel;
 pub(crate) mod render;

@@ -1,13 +1,16 @@
 //! The program as its users meet it: each test runs it in a folder of its own.
 
+mod ask;
 mod bake;
 mod diff;
 mod displays;
 mod errors;
 mod examples;
 mod files;
+mod fmt;
 mod inspect;
 mod join;
+mod manual;
 mod pixel;
 mod program;
 mod render;

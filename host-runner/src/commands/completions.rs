@@ -1,0 +1,35 @@
+//! `scanray completions`: what a shell needs to complete command lines.
+
+use std::process::ExitCode;
+
+use clap::{Args, CommandFactory};
+use clap_complete::Shell;
+
+use crate::cli::Cli;
+use crate::console::print;
+use crate::failure::Failure;
+
+/// The command line.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  scanray completions bash > scanray.bash    to ~/.local/share/bash-completion/completions/scanray
+  scanray completions zsh > _scanray         to a folder of $fpath
+  scanray completions fish > scanray.fish    to ~/.config/fish/completions/scanray.fish")]
+pub(crate) struct CompletionsArgs {
+    /// The shell
+    #[arg(value_name = "SHELL")]
+    shell: Shell,
+}
+
+/// Prints the shell's script.
+///
+/// # Errors
+///
+/// [`Failure`].
+pub(crate) fn run(args: &CompletionsArgs) -> Result<ExitCode, Failure> {
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut Cli::command(), "scanray", &mut script);
+    print(|out| out.write_all(&script))?;
+    Ok(ExitCode::SUCCESS)
+}

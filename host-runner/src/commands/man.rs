@@ -1,0 +1,94 @@
+//! `scanray man`: manual pages.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Command, CommandFactory};
+use clap_mangen::Man;
+
+use crate::cli::Cli;
+use crate::console::{print, say};
+use crate::failure::Failure;
+use crate::output::Place;
+
+/// The command line.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  scanray man > scanray.1              the page of the program; man -l scanray.1 shows it
+  scanray man render > render.1        the page of a command
+  scanray man -o pictures              all pages into a folder, such as ~/.local/share/man/man1")]
+pub(crate) struct ManArgs {
+    /// Command whose page is printed [default: the program's]
+    #[arg(value_name = "COMMAND", conflicts_with = "output")]
+    command: Option<String>,
+
+    /// Write all pages into this folder, which must exist
+    #[arg(short, long, value_name = "FOLDER")]
+    output: Option<PathBuf>,
+}
+
+/// Prints or writes the pages.
+///
+/// # Errors
+///
+/// [`Failure`].
+pub(crate) fn run(args: &ManArgs) -> Result<ExitCode, Failure> {
+    let mut pages = pages();
+    if let Some(folder) = &args.output {
+        if !folder.is_dir() {
+            return Err(Failure::Files(format!(
+                "there is no folder {}: create it first",
+                folder.display()
+            )));
+        }
+        let count = pages.len();
+        for (name, page) in pages {
+            Place::file(&folder.join(format!("{name}.1")))?.write(|file| file.write_all(&page))?;
+        }
+        say(format_args!(
+            "{count} pages written to {}",
+            folder.display()
+        ));
+        return Ok(ExitCode::SUCCESS);
+    }
+    let name = match &args.command {
+        Some(command) => format!("scanray-{command}"),
+        None => "scanray".to_owned(),
+    };
+    let Some(index) = pages.iter().position(|(page, _)| *page == name) else {
+        let names: Vec<_> = pages
+            .iter()
+            .filter_map(|(name, _)| name.strip_prefix("scanray-"))
+            .collect();
+        return Err(Failure::Usage(format!(
+            "there is no command {}; there are {}",
+            args.command.as_deref().unwrap_or_default(),
+            names.join(", ")
+        )));
+    };
+    let (_, page) = pages.swap_remove(index);
+    print(|out| out.write_all(&page))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Name and text of each page: the program's, then the commands'.
+fn pages() -> Vec<(String, Vec<u8>)> {
+    let mut program = Cli::command().disable_help_subcommand(true);
+    program.build();
+    let commands = program.get_subcommands().cloned().collect::<Vec<_>>();
+    let page = |name: String, command: Command| {
+        let mut page = Vec::new();
+        // Writing to memory does not fail.
+        let _ = Man::new(command).render(&mut page);
+        (name, page)
+    };
+    let of_commands = commands.into_iter().map(|command| {
+        let name = format!("scanray-{}", command.get_name());
+        page(name.clone(), command.name(name.clone()).display_name(name))
+    });
+    [page("scanray".to_owned(), program.clone())]
+        .into_iter()
+        .chain(of_commands)
+        .collect()
+}
