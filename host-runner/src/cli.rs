@@ -13,6 +13,7 @@ use crate::commands::fmt::FmtArgs;
 use crate::commands::inspect::InspectArgs;
 use crate::commands::join::JoinArgs;
 use crate::commands::man::ManArgs;
+use crate::commands::needs::NeedsArgs;
 use crate::commands::pixel::PixelArgs;
 use crate::commands::render::RenderArgs;
 
@@ -34,6 +35,7 @@ Examples:
                                            see it from all around
   scanray inspect scene.txt                check what was read
   scanray bake scene.txt -o scene.rs       put it into a firmware's flash
+  scanray needs scene.txt                  what it asks of a device: stages, bytes
   scanray pixel scene.txt 4,3              why a pixel has its colour
   scanray diff old.png new.png             how different two pictures are
   scanray help render                      all that render can do
@@ -63,6 +65,8 @@ pub(crate) enum Command {
     Join(JoinArgs),
     /// Write a scene as Rust source, for a `static` in a firmware's flash
     Bake(BakeArgs),
+    /// Tell what a scene asks of a device: stages, bytes, a line for firmware
+    Needs(NeedsArgs),
     /// Tell how the colours of pixels come about: the tree of rays
     Pixel(PixelArgs),
     /// Compare two pictures: numbers, a picture of the differences

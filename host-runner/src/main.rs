@@ -6,6 +6,7 @@ mod cli;
 mod commands;
 mod compare;
 mod console;
+mod device_memory;
 mod displays;
 mod drawing;
 mod failure;
@@ -28,7 +29,7 @@ mod turntable;
 use std::process::ExitCode;
 
 use cli::{Cli, Command};
-use commands::{ask, bake, completions, diff, fmt, inspect, join, man, pixel, render};
+use commands::{ask, bake, completions, diff, fmt, inspect, join, man, needs, pixel, render};
 
 fn main() -> ExitCode {
     let result = match Cli::from_arguments() {
@@ -36,6 +37,7 @@ fn main() -> ExitCode {
         Command::Inspect(args) => inspect::run(&args),
         Command::Join(args) => join::run(&args),
         Command::Bake(args) => bake::run(&args),
+        Command::Needs(args) => needs::run(&args),
         Command::Pixel(args) => pixel::run(&args),
         Command::Diff(args) => diff::run(&args),
         Command::Fmt(args) => fmt::run(&args),

@@ -21,6 +21,9 @@ impl<T> Tree<'_, T> {
     /// The largest number of steps from the root to a leaf.
     pub const MAX_DEPTH: usize = 31;
 
+    /// With fewer spheres and triangles than this a tree does not pay, and none is built.
+    pub const FEWEST_OBJECTS: usize = 48;
+
     /// No tree: every object of a set is tested.
     pub const NONE: Self = Self {
         nodes: &[],

@@ -218,6 +218,9 @@ impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Needs::ALL.bits() }, STA
 }
 
 impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, STACK> {
+    /// Bytes of each of the `STACK` frames, which are on the call stack while a ray is traced.
+    pub const FRAME_BYTES: usize = size_of::<Frame<T>>();
+
     /// Stages and stack as the type says, unchecked: stages the scene needs beyond `NEEDS` are simply
     /// not drawn.
     #[doc(hidden)]

@@ -8,5 +8,6 @@ pub(crate) mod fmt;
 pub(crate) mod inspect;
 pub(crate) mod join;
 pub(crate) mod man;
+pub(crate) mod needs;
 pub(crate) mod pixel;
 pub(crate) mod render;

@@ -1,6 +1,7 @@
 //! The examples of every help text are run.
 
 use std::fs;
+use std::io::Write;
 use std::process::Command;
 
 use crate::program::{Folder, SMALL_SCENE, scene};
@@ -79,7 +80,10 @@ fn every_example_of_every_command_works() {
                 .iter()
                 .find(|name| example.contains(*name) && !is_installed(name));
             if let Some(missing) = missing {
-                println!("not run, because {missing} is not installed: {example}");
+                let _ = writeln!(
+                    std::io::stderr(),
+                    "not run, because {missing} is not installed: {example}"
+                );
                 continue;
             }
             let run = Command::new("sh")

@@ -8,9 +8,6 @@ use super::bounds::{Bounds, along};
 use crate::scalar::Scalar;
 use crate::scene::{NodeContent, PoolsMut, Scene, Tree, TreeEntry, TreeNode};
 
-/// With fewer spheres and triangles than this a tree does not pay.
-const FEWEST_OBJECTS: usize = 48;
-
 /// Fewer objects make no leaf, so that a tree has fewer nodes than objects.
 const SMALLEST_LEAF: usize = 2;
 
@@ -23,7 +20,7 @@ const BINS: usize = 16;
 impl<T: Scalar> PoolsMut<'_, T> {
     /// Builds the tree of a large scene, if the pools have room for it.
     pub(in crate::visibility) fn build_tree(&mut self) {
-        self.fill_tree(FEWEST_OBJECTS, build);
+        self.fill_tree(Tree::<T>::FEWEST_OBJECTS, build);
     }
 }
 

@@ -1,0 +1,271 @@
+//! What a scene and its renderer take in the memory of a device with pointers of 32 bits.
+//!
+//! Entries, colours and frames hold no pointers, so that they have the same size here; what holds lengths and
+//! pointers is put together from its fields, in the order that leaves no gaps, which is the compiler's.
+
+use scanray::shape::{Plane, Sphere, Triangle};
+use scanray::{
+    Background, Camera, DEFAULT_MAX_DEPTH, Light, Material, Reach, Resolution, Scalar, Scene,
+    Tracer, Tree, TreeEntry, TreeNode,
+};
+use serde::Serialize;
+
+/// Bytes of a pointer or length on the device.
+const DEVICE_WORD: usize = 4;
+
+/// Size and alignment of a type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Layout {
+    size: usize,
+    align: usize,
+}
+
+impl Layout {
+    /// Of a type that has this layout everywhere.
+    const fn of<E>() -> Self {
+        Self {
+            size: size_of::<E>(),
+            align: align_of::<E>(),
+        }
+    }
+
+    /// Of a number of words.
+    const fn words(count: usize, word: usize) -> Self {
+        Self {
+            size: count * word,
+            align: word,
+        }
+    }
+
+    /// Of a structure of these fields.
+    fn record(fields: &[Self]) -> Self {
+        let align = fields.iter().map(|field| field.align).max().unwrap_or(1);
+        let size: usize = fields.iter().map(|field| field.size).sum();
+        Self {
+            size: size.next_multiple_of(align),
+            align,
+        }
+    }
+
+    /// Of a `heapless::Vec` of so many entries: its length and an array.
+    fn pool(self, capacity: usize, word: usize) -> Self {
+        let entries = Self {
+            size: self.size * capacity,
+            align: self.align,
+        };
+        Self::record(&[Self::words(1, word), entries])
+    }
+}
+
+/// A pool of the device.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub(crate) struct PoolMemory {
+    /// What its entries are.
+    pub(crate) pool: &'static str,
+    /// How many the scene has.
+    pub(crate) entries: usize,
+    pub(crate) bytes_each: usize,
+    pub(crate) bytes: usize,
+    /// The picture is the same without it.
+    pub(crate) for_speed_alone: bool,
+}
+
+/// What a scene and its renderer take.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub(crate) struct DeviceMemory {
+    pub(crate) pools: Vec<PoolMemory>,
+    /// What a scene has one of: camera, background …
+    pub(crate) settings: usize,
+    /// `ScenePools` with all of it, lengths included.
+    pub(crate) scene_pools: usize,
+    /// The same scene baked into flash.
+    pub(crate) baked: usize,
+    pub(crate) tracer: usize,
+    /// To draw in instalments.
+    pub(crate) frame: usize,
+    /// Each level of mirrored and refracted rays, on the call stack.
+    pub(crate) stack_frame: usize,
+    /// All of them.
+    pub(crate) stack: usize,
+}
+
+impl DeviceMemory {
+    /// What a scene takes with secondary rays to a depth.
+    pub(crate) fn of<T: Scalar>(scene: &Scene<'_, T>, max_depth: usize) -> Self {
+        Self::with_word(scene, max_depth, DEVICE_WORD)
+    }
+
+    fn with_word<T: Scalar>(scene: &Scene<'_, T>, max_depth: usize, word: usize) -> Self {
+        let objects = scene.object_count();
+        let bounded = scene.spheres.len() + scene.triangles.len();
+        let in_tree = if bounded < Tree::<T>::FEWEST_OBJECTS {
+            0
+        } else {
+            bounded
+        };
+        let pools = [
+            (
+                "spheres",
+                Layout::of::<Sphere<T>>(),
+                scene.spheres.len(),
+                false,
+            ),
+            (
+                "planes",
+                Layout::of::<Plane<T>>(),
+                scene.planes.len(),
+                false,
+            ),
+            (
+                "triangles",
+                Layout::of::<Triangle<T>>(),
+                scene.triangles.len(),
+                false,
+            ),
+            (
+                "materials",
+                Layout::of::<Material<T>>(),
+                scene.materials.len(),
+                false,
+            ),
+            (
+                "lights",
+                Layout::of::<Light<T>>(),
+                scene.lights.len(),
+                false,
+            ),
+            ("sides", Layout::of::<[Reach; 2]>(), objects, true),
+            ("tree nodes", Layout::of::<TreeNode<T>>(), in_tree, true),
+            ("tree entries", Layout::of::<TreeEntry>(), in_tree, true),
+        ];
+        let plain = [
+            Layout::of::<Camera<T>>(),
+            Layout::of::<Resolution>(),
+            Layout::of::<T>(),
+            Layout::of::<Background<T>>(),
+        ];
+        let settings = Layout::record(&plain);
+        let lists = pools.map(|(_, entry, count, _)| entry.pool(count, word));
+        let scene_pools = Layout::record(&[&[settings], &lists[..]].concat());
+        // A slice each.
+        let view = Layout::record(&[&plain[..], &[Layout::words(2, word); 8]].concat());
+        let tracer = Layout::record(&[
+            view,
+            Layout::of::<Resolution>(),
+            Layout::words(1, word),
+            Layout::of::<T>(),
+        ]);
+        let stack_frame = Layout {
+            size: Tracer::<T>::FRAME_BYTES,
+            align: align_of::<T>(),
+        };
+        let pools = pools.map(|(pool, entry, entries, for_speed_alone)| PoolMemory {
+            pool,
+            entries,
+            bytes_each: entry.size,
+            bytes: entry.size * entries,
+            for_speed_alone,
+        });
+        Self {
+            baked: view.size + pools.iter().map(|pool| pool.bytes).sum::<usize>(),
+            pools: pools.into(),
+            settings: settings.size,
+            scene_pools: scene_pools.size,
+            tracer: tracer.size,
+            frame: size_of::<scanray::Frame>(),
+            stack_frame: stack_frame.size,
+            stack: stack_frame.pool(max_depth, word).size,
+        }
+    }
+
+    /// The type of the pools with just enough room.
+    pub(crate) fn pools_type(&self, scalar: &str) -> String {
+        let mut capacities: Vec<_> = self.pools.iter().map(|pool| pool.entries).collect();
+        // Nodes and entries of a tree have one parameter, which is 0 unless it is written.
+        capacities.pop();
+        if capacities.last() == Some(&0) {
+            capacities.pop();
+        }
+        let capacities: Vec<_> = capacities.iter().map(usize::to_string).collect();
+        format!("ScenePools<{scalar}, {}>", capacities.join(", "))
+    }
+
+    /// The tracer that has the depth, for a scene in pools.
+    pub(crate) fn tracer_expression(&self, max_depth: usize) -> String {
+        let new = "Tracer::new(pools.as_scene())";
+        match max_depth {
+            DEFAULT_MAX_DEPTH => new.to_owned(),
+            ..DEFAULT_MAX_DEPTH => format!("{new}.with_stack::<{max_depth}>()"),
+            _ => format!("{new}.with_stack::<{max_depth}>().with_max_depth({max_depth})?"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scanray::{FromDecimal, ScenePools};
+
+    /// On this machine a word has its own size, and the compiler knows the rest.
+    fn agrees<
+        T: Scalar + FromDecimal,
+        const SPHERES: usize,
+        const PLANES: usize,
+        const TRIANGLES: usize,
+        const MATERIALS: usize,
+        const SIDES: usize,
+        const TREE: usize,
+    >(
+        text: &str,
+        name: &str,
+    ) {
+        type Pools<
+            T,
+            const A: usize,
+            const B: usize,
+            const C: usize,
+            const D: usize,
+            const E: usize,
+            const F: usize,
+        > = ScenePools<T, A, B, C, D, 1, E, F>;
+        let mut pools =
+            Box::new(Pools::<T, SPHERES, PLANES, TRIANGLES, MATERIALS, SIDES, TREE>::new());
+        pools.parse(text.as_bytes()).unwrap();
+        let scene = pools.as_scene();
+        let memory = DeviceMemory::with_word(&scene, 5, size_of::<usize>());
+        assert_eq!(memory.pools_type(T::NAME), name);
+        assert_eq!(
+            memory.scene_pools,
+            size_of::<Pools<T, SPHERES, PLANES, TRIANGLES, MATERIALS, SIDES, TREE>>(),
+            "{name}"
+        );
+        assert_eq!(memory.tracer, size_of::<Tracer<'_, T>>());
+        for use_ in pools.usage() {
+            let pool = memory
+                .pools
+                .iter()
+                .find(|pool| pool.pool == use_.pool.name())
+                .unwrap();
+            assert_eq!((pool.entries, pool.bytes), (use_.capacity, use_.bytes));
+            assert_eq!(use_.used, use_.capacity, "just enough room");
+        }
+        let nodes = size_of_val(scene.tree.entries);
+        assert_eq!(memory.pools[7].bytes, nodes);
+    }
+
+    #[test]
+    fn sizes_are_those_of_the_types() {
+        let default = include_str!("../../scenes/default.txt");
+        agrees::<f32, 5, 1, 1, 5, 7, 0>(default, "ScenePools<f32, 5, 1, 1, 5, 1, 7>");
+        agrees::<f64, 5, 1, 1, 5, 7, 0>(default, "ScenePools<f64, 5, 1, 1, 5, 1, 7>");
+        let reflective = include_str!("../../scenes/reflective.txt");
+        agrees::<f32, 8, 1, 3, 11, 12, 0>(reflective, "ScenePools<f32, 8, 1, 3, 11, 1, 12>");
+        // Enough for a tree.
+        let mut many = "60\n0 0 0\n8 6\n5 5 -5 1 1 1 1 1 1\n0.1\n1\n0 0 0\n".to_owned();
+        for i in 0..60 {
+            many += &format!("0 {i} 0 9 .4 .8 .2 .2 .5 .5 .5 1 1 1 0 50 0 0\n");
+        }
+        agrees::<f32, 60, 0, 0, 1, 60, 60>(&many, "ScenePools<f32, 60, 0, 0, 1, 1, 60, 60>");
+        agrees::<f64, 60, 0, 0, 1, 60, 60>(&many, "ScenePools<f64, 60, 0, 0, 1, 1, 60, 60>");
+    }
+}
