@@ -14,8 +14,8 @@ mod sealed {
 
 /// A binary floating-point number: `f32` or `f64`.
 ///
-/// The trait is sealed. All operations are correctly rounded, except [`Scalar::powf`], whose error
-/// is stated there.
+/// The trait is sealed. All operations are correctly rounded, except [`Scalar::powi`], which rounds
+/// each of its products, and [`Scalar::powf`], whose error is stated there.
 pub trait Scalar:
     sealed::Sealed
     + Copy
@@ -84,6 +84,23 @@ pub trait Scalar:
     /// `self^exponent` for `self` in 0…1 and `exponent ≥ 0`, to an absolute error of 1e-6 (`f32`) or
     /// 1e-15 (`f64`). `f32` uses no double-precision operation.
     fn powf(self, exponent: Self) -> Self;
+
+    /// `self^exponent` by repeated squaring; `x⁰ = 1`.
+    #[inline(always)]
+    fn powi(self, exponent: u16) -> Self {
+        let (mut base, mut exponent) = (self, exponent);
+        let mut power = Self::ONE;
+        loop {
+            if exponent & 1 != 0 {
+                power = power * base;
+            }
+            exponent >>= 1;
+            if exponent == 0 {
+                return power;
+            }
+            base = base * base;
+        }
+    }
 
     /// Neither infinite nor NaN.
     fn is_finite(self) -> bool;
@@ -315,6 +332,16 @@ mod tests {
             }
         }
         assert!(worst < 1e-6, "worst absolute error {worst:e}");
+    }
+
+    #[test]
+    fn whole_powers_are_those_of_the_standard_library() {
+        for exponent in [0_u16, 1, 2, 3, 50, 255, 1024] {
+            for base in [0.0_f64, 0.1, 0.5, 0.99, 0.9999, 1.0] {
+                let exact = base.powi(i32::from(exponent));
+                assert!((Scalar::powi(base, exponent) - exact).abs() < 1e-12);
+            }
+        }
     }
 
     #[test]

@@ -1,12 +1,12 @@
-//! Pictures that can be computed by hand: the mirror series, one lit plane, one lit sphere, the sky.
+//! Pictures that can be computed by hand: one lit plane, one lit sphere, the sky.
 
 mod common;
 
 use common::sampling::{bits, channels};
 use common::scenes::{Model, Part, Shape};
 use scanray::{
-    Background, Color, DepthError, Light, MaterialDescription, Observer, Ray, RayKind, Resolution,
-    Scalar, Tracer, Vec3,
+    Background, Color, DepthError, Light, MaterialDescription, Ray, Resolution, Scalar, Tracer,
+    Vec3,
 };
 
 const SIZE: Resolution = Resolution {
@@ -76,73 +76,6 @@ fn assert_close<T: Scalar>(
 
 fn pixels() -> impl Iterator<Item = (u16, u16)> {
     (0..SIZE.height).flat_map(|y| (0..SIZE.width).map(move |x| (x, y)))
-}
-
-/// The sum of a material's ambient colour over `depth + 1` meetings with mirrors of a coefficient,
-/// clamped at every level from the last one.
-fn mirror_series(ambient: f64, coefficient: f64, depth: usize) -> f64 {
-    let mut sum = 0.0;
-    for _ in 0..=depth {
-        sum = f64::min(ambient + coefficient * sum, 1.0);
-    }
-    sum
-}
-
-/// Counts the rays of the longest pixel.
-#[derive(Default)]
-struct Rays(usize);
-
-impl<T> Observer<T> for Rays {
-    fn ray(&mut self, _: RayKind, depth: usize, _: &Ray<T>) {
-        assert!(depth <= 16);
-        self.0 += 1;
-    }
-}
-
-fn facing_mirrors_sum_up<T: Scalar>() {
-    for (ambient, coefficient) in [
-        (0.1, 0.5),
-        (0.02, 0.9),
-        (0.05, 1.0),
-        (0.25, 1.0),
-        (0.3, 2.0),
-    ] {
-        let mut model = empty::<T>();
-        for (normal, distance) in [([0.0, 0.0, 1.0], 1.0), ([0.0, 0.0, -1.0], 1.0)] {
-            model.parts.push(Part {
-                shape: Shape::Plane {
-                    normal: vector(normal),
-                    distance: T::from_f64(distance),
-                },
-                material: MaterialDescription {
-                    ambient: color([ambient; 3]),
-                    reflection: T::from_f64(coefficient),
-                    ..Default::default()
-                },
-            });
-        }
-        let pools = model.build();
-        let tracer = Tracer::new(pools.as_scene()).with_stack::<16>();
-        for depth in 0..=16 {
-            let tracer = tracer.with_max_depth(depth).unwrap();
-            let mut rays = Rays::default();
-            let actual = tracer.pixel_observed(&tracer.scanline(7), 11, &mut rays);
-            // Without lights there are no shadow rays.
-            assert_eq!(rays.0, depth + 1);
-            let expected = mirror_series(ambient, coefficient, depth);
-            assert_close(actual, [expected; 3], 16.0 * T::EPSILON.to_f64(), (11, 7));
-        }
-    }
-}
-
-#[test]
-fn facing_mirrors_sum_up_in_single_precision() {
-    facing_mirrors_sum_up::<f32>();
-}
-
-#[test]
-fn facing_mirrors_sum_up_in_double_precision() {
-    facing_mirrors_sum_up::<f64>();
 }
 
 #[test]
@@ -308,40 +241,6 @@ fn a_sphere_is_lit_by_hand_in_double_precision() {
     a_sphere_is_lit_by_hand::<f64>(1e-12);
 }
 
-/// A ray that touches a sphere in one point, in numbers without rounding, meets its outside.
-#[test]
-fn an_exact_tangent_meets_the_outside() {
-    for side in [1.0, -1.0_f32] {
-        for (height, expected) in [(-9.0, 0.75), (9.0, 0.25)] {
-            let mut model = empty::<f32>();
-            model.ambient = 0.25;
-            model.lights.push(Light {
-                // Straight below (or above) the point that is touched.
-                position: Vec3::new(0.0, side * height, 5.0),
-                specular: Color::BLACK,
-                diffuse: color([1.0; 3]),
-            });
-            model.parts.push(Part {
-                shape: Shape::Sphere {
-                    center: Vec3::new(0.0, side * 3.0, 5.0),
-                    radius: 3.0,
-                },
-                material: MaterialDescription {
-                    diffuse: color([0.5; 3]),
-                    ambient: color([1.0; 3]),
-                    ..Default::default()
-                },
-            });
-            let pools = model.build();
-            let tracer = Tracer::new(pools.as_scene());
-            let ray = Ray::new(vector([0.0; 3]), vector([0.0, 0.0, 1.0]));
-            assert_eq!(tracer.nearest(&ray).map(|hit| hit.t), Some(5.0));
-            let shown = channels(tracer.radiance(ray));
-            assert_eq!(shown, [expected; 3], "centre {side}, light {height}");
-        }
-    }
-}
-
 /// Shadows: between the hit and the light, not beyond it, and not of index 1.
 #[test]
 fn only_what_lies_before_the_light_casts_a_shadow() {
@@ -441,58 +340,4 @@ fn a_sheet_of_glass_moves_what_is_behind_it() {
         assert_eq!(green == 0.0, expected == 1.0, "({x}, {y})");
     }
     assert!(red > 400 && red < 800);
-}
-
-/// From inside glass, rays beyond the critical angle leave nothing behind the surface to be seen; the
-/// others show what is there. Decided right to within 1e-5 of the angle's sine.
-fn total_reflection_begins_at_the_critical_angle<T: Scalar>(band: f64) {
-    for index in [1.000_1, 1.01, 1.5, 2.4] {
-        let mut model = empty::<T>();
-        model.background = Background {
-            color: color([1.0; 3]),
-            sky: false,
-        };
-        // The surface ahead, whose outside lies beyond it.
-        model.parts.push(Part {
-            shape: Shape::Plane {
-                normal: vector([0.0, 0.0, 1.0]),
-                distance: -T::ONE,
-            },
-            material: MaterialDescription {
-                refraction: T::ONE,
-                index_of_refraction: T::from_f64(index),
-                ..Default::default()
-            },
-        });
-        let pools = model.build();
-        let tracer = Tracer::new(pools.as_scene());
-        // The index as the scalar has it.
-        let critical = 1.0 / T::from_f64(index).to_f64();
-        for step in 1..2_000 {
-            let turn = f64::from(step);
-            for (sine, expected) in [(critical - band, 1.0), (critical + band, 0.0)] {
-                if sine >= 1.0 {
-                    continue;
-                }
-                let d = [
-                    sine * turn.cos(),
-                    sine * turn.sin(),
-                    (1.0 - sine * sine).sqrt(),
-                ];
-                let ray = Ray::new(vector::<T>([0.0; 3]), vector::<T>(d));
-                let actual = channels(tracer.radiance(ray));
-                assert_eq!(actual, [expected; 3], "index {index}, sine {sine}, {ray:?}");
-            }
-        }
-    }
-}
-
-#[test]
-fn total_reflection_begins_at_the_critical_angle_in_single_precision() {
-    total_reflection_begins_at_the_critical_angle::<f32>(1e-5);
-}
-
-#[test]
-fn total_reflection_begins_at_the_critical_angle_in_double_precision() {
-    total_reflection_begins_at_the_critical_angle::<f64>(1e-13);
 }

@@ -183,34 +183,6 @@ fn spheres_in_double_precision() {
     spheres::<f64>(82, 100_000);
 }
 
-/// Small and distant spheres, where the textbook discriminant fails: no wrong answer outside a band of a
-/// thousandth of the radius.
-#[test]
-fn silhouettes_of_distant_spheres_are_sharp() {
-    let random = Random::of_test(83);
-    for ratio in [1e-1, 1e-2, 1e-3, 1e-4] {
-        let mut wrong = 0;
-        for _ in 0..50_000 {
-            let r = random.log_between(1e-4, 1e4);
-            let radius = r as f32;
-            let toward: Vec3<f64> = random.direction();
-            let center: Vec3<f32> = narrow(toward * (r / ratio));
-            let sphere = Sphere::new(center, radius, SURFACE).unwrap();
-            let sideways = toward.cross(random.direction()).normalize();
-            let target = wide(center) + sideways * (r * random.between(0.5, 1.5));
-            let ray = ray_to(Vec3::new(0.0_f32, 0.0, 0.0), target);
-            let beside = length(wide(center).cross(wide(ray.direction)))
-                / length(wide(ray.direction))
-                / f64::from(radius);
-            if (beside - 1.0).abs() > 1e-3 {
-                let hit = sphere.intersect(&ray, f32::MAX).is_some();
-                wrong += usize::from(hit != (beside < 1.0));
-            }
-        }
-        assert_eq!(wrong, 0, "at radius/distance {ratio:e}");
-    }
-}
-
 /// Rays at a plane from both sides, along it and away from it.
 fn planes<T: Scalar>(seed: u64, rounds: usize) {
     let random = Random::of_test(seed);
@@ -427,131 +399,6 @@ fn triangles_in_double_precision() {
     triangles::<f64>(87, 100_000);
 }
 
-/// A closed mesh around the origin: an icosahedron, stretched, turned and moved by `place`.
-fn mesh(place: impl Fn(Vec3<f64>) -> Vec3<f64>) -> (Vec<Vec3<f32>>, Vec<[usize; 3]>) {
-    let golden = (1.0 + 5_f64.sqrt()) / 2.0;
-    let mut corners = Vec::new();
-    for (a, b) in [
-        (1.0, golden),
-        (-1.0, golden),
-        (1.0, -golden),
-        (-1.0, -golden),
-    ] {
-        corners.extend([
-            Vec3::new(0.0, a, b),
-            Vec3::new(a, b, 0.0),
-            Vec3::new(b, 0.0, a),
-        ]);
-    }
-    let near = |i: usize, j: usize| (length(corners[i] - corners[j]) - 2.0).abs() < 1e-9;
-    let mut faces = Vec::new();
-    for i in 0..12 {
-        for j in i + 1..12 {
-            for k in j + 1..12 {
-                if near(i, j) && near(j, k) && near(i, k) {
-                    faces.push([i, j, k]);
-                }
-            }
-        }
-    }
-    assert_eq!(faces.len(), 20);
-    (
-        corners
-            .into_iter()
-            .map(|corner| narrow(place(corner)))
-            .collect(),
-        faces,
-    )
-}
-
-/// Rays at the edges and corners of a closed mesh never pass between its triangles, at any scale, and
-/// next to an edge they meet one triangle alone. (The edge itself belongs to both, and a ray at its
-/// middle often meets it exactly.)
-#[test]
-fn closed_meshes_have_no_leaks_and_no_double_hits() {
-    let random = Random::of_test(88);
-    let (mut rays, mut double_hits) = (0, 0);
-    for round in 0..200 {
-        let scale = random.log_between(1e-4, 1e4);
-        let stretch = random.point::<f64>(0.3) + Vec3::splat(1.0);
-        let middle: Vec3<f64> = random.point(scale * 3.0);
-        let turn: Vec3<f64> = random.direction();
-        let (corners, faces) = mesh(|p| {
-            let mirrored = p - turn * (2.0 * p.dot(turn));
-            let stretched = Vec3::new(
-                mirrored.x * stretch.x,
-                mirrored.y * stretch.y,
-                mirrored.z * stretch.z,
-            );
-            stretched * scale + middle
-        });
-        let triangles: Vec<_> = faces
-            .iter()
-            .map(|face| Triangle::new(face.map(|i| corners[i]), SURFACE).unwrap())
-            .collect();
-        for _ in 0..200 {
-            let face = faces[random.below(20)];
-            let (a, b) = (wide(corners[face[0]]), wide(corners[face[1]]));
-            let weight = [0.0, 0.5, 1.0, random.between(0.0, 1.0)][random.below(4)];
-            let target = a * (1.0 - weight) + b * weight;
-            // From inside, in every direction there is a wall.
-            let origin: Vec3<f32> = narrow(middle + random.point::<f64>(0.2 * scale));
-            let ray = ray_to(origin, target);
-            let hits = triangles
-                .iter()
-                .filter(|triangle| triangle.intersect(&ray, f32::MAX).is_some())
-                .count();
-            rays += 1;
-            assert!(hits >= 1, "a leak in mesh {round}: {ray:?}, {triangles:#?}");
-            let is_special = [0.0, 0.5, 1.0].contains(&weight);
-            double_hits += usize::from(hits > 1 && !is_special);
-        }
-    }
-    println!("{rays} rays, {double_hits} double hits");
-    assert_eq!(double_hits, 0);
-}
-
-/// A ray that leaves a surface on the side it belongs to does not meet the surface again, and one that
-/// goes in meets the far side: no acne, no leaks, whatever the scale.
-#[test]
-fn rays_that_leave_a_sphere_do_not_meet_it_again() {
-    let random = Random::of_test(89);
-    let (mut acne, mut leaks) = (0, 0);
-    for _ in 0..100_000 {
-        let r = random.log_between(1e-3, 1e6);
-        let center: Vec3<f32> = random.point(r * random.log_between(0.1, 30.0));
-        let sphere = Sphere::new(center, r as f32, SURFACE).unwrap();
-        let away: Vec3<f64> = random.direction();
-        let origin: Vec3<f32> = narrow(wide(center) + away * (r * random.log_between(1.5, 1e3)));
-        let target = wide(center) + random.point::<f64>(0.5 * r);
-        let ray = ray_to(origin, target);
-        let t = sphere
-            .intersect(&ray, f32::MAX)
-            .expect("aimed at the middle");
-        let hit = sphere.surface_point(&ray, t);
-        let mut direction: Vec3<f32> = random.direction();
-        if direction.dot(hit.normal) < 0.0 {
-            direction = -direction;
-        }
-        let leaving = Ray {
-            origin: hit.point + hit.normal * hit.offset,
-            direction,
-            leaves: Side::new(SURFACE.number, true),
-        };
-        acne += usize::from(sphere.intersect(&leaving, f32::MAX).is_some());
-        // Steeply enough that the chord is longer than the offset.
-        if direction.dot(hit.normal) > 0.01 {
-            let entering = Ray {
-                origin: hit.point - hit.normal * hit.offset,
-                direction: -direction,
-                leaves: Side::new(SURFACE.number, false),
-            };
-            leaks += usize::from(sphere.intersect(&entering, f32::MAX).is_none());
-        }
-    }
-    assert_eq!((acne, leaks), (0, 0));
-}
-
 #[test]
 fn rays_that_leave_a_flat_object_do_not_meet_it_again() {
     let random = Random::of_test(90);
@@ -573,40 +420,6 @@ fn rays_that_leave_a_flat_object_do_not_meet_it_again() {
         if let Ok(triangle) = Triangle::new(vertices, surface) {
             assert_eq!(triangle.intersect(&leaving, f32::MAX), None);
             assert!(!triangle.occludes(&leaving, f32::MAX));
-        }
-    }
-}
-
-/// NaN and infinity anywhere in a ray are a miss.
-#[test]
-fn rays_that_are_no_rays_meet_nothing() {
-    let sphere = Sphere::new(Vec3::new(0.0_f32, 0.0, 5.0), 1.0, SURFACE).unwrap();
-    let plane = Plane::new(Vec3::new(0.0_f32, 0.6, 0.8), 1.0, SURFACE).unwrap();
-    let v = |x, y| Vec3::new(x, y, 4.0_f32);
-    let triangle = Triangle::new([v(-1.0, -1.0), v(1.0, -1.0), v(0.0, 2.0)], SURFACE).unwrap();
-    for place in 0..6 {
-        for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
-            let mut numbers = [0.01, 0.02, 0.0, 0.1, 0.1, 0.98];
-            numbers[place] = bad;
-            let [x, y, z, dx, dy, dz] = numbers;
-            let ray = Ray::new(Vec3::new(x, y, z), Vec3::new(dx, dy, dz));
-            let finite_t = |t: Option<f32>| t.is_none_or(|t| t.is_finite() && t > 0.0);
-            if bad.is_nan() {
-                assert_eq!(sphere.intersect(&ray, f32::MAX), None, "{ray:?}");
-                assert_eq!(plane.intersect(&ray, f32::MAX), None, "{ray:?}");
-                assert_eq!(triangle.intersect(&ray, f32::MAX), None, "{ray:?}");
-                assert!(!sphere.occludes(&ray, f32::MAX), "{ray:?}");
-                assert!(!plane.occludes(&ray, f32::MAX), "{ray:?}");
-                assert!(!triangle.occludes(&ray, f32::MAX), "{ray:?}");
-            } else {
-                // Such a ray has no length 1; whatever is answered is at least a distance.
-                assert!(finite_t(sphere.intersect(&ray, f32::MAX)), "{ray:?}");
-                assert!(finite_t(plane.intersect(&ray, f32::MAX)), "{ray:?}");
-                assert!(
-                    finite_t(triangle.intersect(&ray, f32::MAX).map(|(t, _)| t)),
-                    "{ray:?}"
-                );
-            }
         }
     }
 }
@@ -695,46 +508,4 @@ fn singly(tracer: &Tracer<'_>, ray: &Ray) -> Option<f32> {
             Object::Triangle(triangle) => triangle.intersect(ray, f32::MAX).map(|(t, _)| t),
         })
         .min_by(f32::total_cmp)
-}
-
-/// Of objects at exactly the same distance the first in the file is seen, whatever their shapes.
-#[test]
-fn of_objects_in_one_place_the_first_is_seen() {
-    let ray = Ray::new(Vec3::new(0.0_f32, 0.0, 0.0), Vec3::new(0.0, 0.0, 1.0));
-    let material = MaterialDescription::default();
-    let adds: [fn(&mut scanray::PoolsMut<'_, f32>, MaterialDescription); 4] = [
-        |pools, m| pools.add_sphere(Vec3::new(0.0, 0.0, 5.0), 1.0, m).unwrap(),
-        |pools, m| pools.add_plane(Vec3::new(0.0, 0.0, 1.0), -4.0, m).unwrap(),
-        |pools, m| {
-            let v = |x, y| Vec3::new(x, y, 4.0);
-            pools
-                .add_triangle([v(-1.0, -1.0), v(1.0, -1.0), v(0.0, 2.0)], m)
-                .unwrap();
-        },
-        |pools, m| pools.add_sphere(Vec3::new(0.0, 0.0, 6.0), 2.0, m).unwrap(),
-    ];
-    for order in 0..24 {
-        // All orders of four, from the digits of a number in factorial base.
-        let mut left = vec![0, 1, 2, 3];
-        let mut number = order;
-        let order: Vec<usize> = (1..=4)
-            .rev()
-            .map(|count| {
-                let place = number % count;
-                number /= count;
-                left.remove(place)
-            })
-            .collect();
-        let mut pools = RoomyPools::<f32>::new();
-        for &which in &order {
-            adds[which](&mut pools.as_mut(), material);
-        }
-        let scene = pools.as_scene();
-        let hit = Tracer::new(scene).nearest(&ray).unwrap();
-        assert_eq!(
-            (hit.t, hit.object.surface().number),
-            (4.0, 0),
-            "order {order:?}"
-        );
-    }
 }

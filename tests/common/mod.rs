@@ -5,9 +5,9 @@
 
 pub(crate) mod canvas;
 pub(crate) mod picture;
-pub(crate) mod random;
-pub(crate) mod sampling;
-pub(crate) mod scenes;
+
+#[allow(unused_imports)]
+pub(crate) use scanray_stability::{random, scenes, settled as sampling};
 
 /// Whether expected files are to be rewritten instead of compared.
 pub(crate) fn is_blessing() -> bool {

@@ -209,7 +209,7 @@ pub(super) fn first_lanes<S: Simd>(simd: S, count: usize) -> Mask<S> {
     Mask::from_bitmask(simd, (1 << count) - 1)
 }
 
-/// `power_of_whole`: repeated squaring.
+/// `Scalar::powi`: repeated squaring.
 #[inline(always)]
 pub(super) fn power_of_whole<S: Simd>(
     simd: S,

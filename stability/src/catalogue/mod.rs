@@ -1,0 +1,136 @@
+//! The catalogue: 69 numbered cases, what is expected of each, and what is measured.
+//!
+//! In every case: no channel is other than finite and in 0…1 before quantisation, nothing panics, no pixel
+//! takes more rays than the tracer promises. A pixel is *settled* when its `f64` colour stays within 1 level
+//! of 255 while the sample moves by a thousandth of a pixel in x and y; the others lie on an edge that
+//! rounding alone may move; they are counted, and at most 1 % of a picture. The tiers compare settled pixels
+//! with the same scene in `f64`: **A** at most 1 level off, and that on at most 0.02 %; **B** at most 0.1 %
+//! more than 1 level off; **C** what holds in every case, alone. *Rejected* means that the constructor or the
+//! parser says why.
+
+mod geometry;
+mod image;
+mod input;
+mod record;
+mod shading;
+
+pub use record::{Effort, Finding, Quantity, Record};
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use serde::Serialize;
+
+/// What a case is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Group {
+    /// Rays and shapes.
+    Geometry,
+    /// Local colour, shadows, and where secondary rays start.
+    Shading,
+    /// Camera, picture, and the whole scene.
+    Image,
+    /// What is read, and what machine it runs on.
+    Input,
+}
+
+/// A case of the catalogue.
+#[derive(Clone, Copy)]
+pub struct Case {
+    /// Its number, from 1 to 69.
+    pub number: u8,
+    /// Its name, in words joined by `_`.
+    pub name: &'static str,
+    /// What it is about.
+    pub group: Group,
+    /// What is expected.
+    pub expected: &'static str,
+    how: How,
+}
+
+#[derive(Clone, Copy)]
+enum How {
+    Measured {
+        single: fn(&mut Record),
+        double: fn(&mut Record),
+    },
+    /// Checked on the boards by a named check.
+    OnBoards(&'static str),
+}
+
+impl std::fmt::Debug for Case {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Case")
+            .field("number", &self.number)
+            .field("name", &self.name)
+            .finish_non_exhaustive()
+    }
+}
+
+/// A scalar's name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ScalarName {
+    /// Single precision.
+    F32,
+    /// Double precision.
+    F64,
+}
+
+impl ScalarName {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::F32, Self::F64];
+
+    /// `f32` or `f64`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::F32 => "f32",
+            Self::F64 => "f64",
+        }
+    }
+}
+
+impl Case {
+    /// All cases, by number.
+    pub fn all() -> Vec<Self> {
+        [geometry::CASES, shading::CASES, image::CASES, input::CASES].concat()
+    }
+
+    /// Where the case is checked if it needs a board and cannot be measured here.
+    pub fn on_boards(&self) -> Option<&'static str> {
+        match self.how {
+            How::Measured { .. } => None,
+            How::OnBoards(check) => Some(check),
+        }
+    }
+
+    /// Measures the case in a scalar. A panic is a finding, too.
+    pub fn measure(&self, scalar: ScalarName, effort: Effort) -> Vec<Finding> {
+        let How::Measured { single, double } = self.how else {
+            return Vec::new();
+        };
+        let measure = match scalar {
+            ScalarName::F32 => single,
+            ScalarName::F64 => double,
+        };
+        let mut record = Record::new(effort);
+        if catch_unwind(AssertUnwindSafe(|| measure(&mut record))).is_err() {
+            record.count("panics", 1, 1);
+        }
+        record.into_findings()
+    }
+}
+
+/// The cases of a group: `number name: "what is expected";` with a function of the name for each.
+macro_rules! cases {
+    ($group:ident: $($number:literal $name:ident: $expected:literal;)*) => {
+        pub(super) const CASES: &[$crate::catalogue::Case] = &[$($crate::catalogue::Case {
+            number: $number,
+            name: stringify!($name),
+            group: $crate::catalogue::Group::$group,
+            expected: $expected,
+            how: $crate::catalogue::How::Measured { single: $name::<f32>, double: $name::<f64> },
+        }),*];
+    };
+}
+use cases;

@@ -1,0 +1,22 @@
+//! The stiff and extreme cases that scanray is held to, measured.
+//!
+//! [`catalogue`] has the cases: each measures `f32` and `f64` and says what was found and what may be. The
+//! tests in tests/numerics ask here. Around it are the instruments: seeded [`random`] numbers, [`scenes`] to change and build again,
+//! [`settled`] pixels, a [`reference`](mod@reference) of higher precision, and the [`textbook`] forms that the core's are
+//! compared with.
+//!
+//! "Stiff" means two widely separated scales in one scene.
+
+pub mod catalogue;
+pub mod random;
+pub mod reference;
+pub mod scenes;
+pub mod settled;
+pub mod textbook;
+
+use scanray::{FromDecimal, Scalar};
+
+/// A scalar that cases are measured in.
+pub trait Number: Scalar + FromDecimal {}
+
+impl<T: Scalar + FromDecimal> Number for T {}

@@ -1,0 +1,116 @@
+//! The catalogue of stiff and extreme cases: each of its 69 cases by number and name, in `f32` and `f64`.
+//!
+//! What is measured and what is expected stands in stability/src/catalogue.
+//! A case's figures, seeds and bounds are shown with `cargo test --test numerics case_26 -- --nocapture`;
+//! `SEED=7` tries other random numbers.
+
+mod geometry;
+mod image;
+mod input;
+mod shading;
+
+use scanray_stability::catalogue::{Case, Effort, Finding, Group, ScalarName};
+
+/// Tests of cases, by what is `case_NUMBER_NAME`: one for each scalar.
+macro_rules! cases {
+    ($($case:ident,)*) => {
+        /// The cases that are tested here.
+        pub(crate) const CASES: &[&str] = &[$(stringify!($case)),*];
+
+        $(mod $case {
+            use scanray_stability::catalogue::ScalarName;
+
+            #[test]
+            fn f32() {
+                crate::check(stringify!($case), ScalarName::F32);
+            }
+
+            #[test]
+            fn f64() {
+                crate::check(stringify!($case), ScalarName::F64);
+            }
+        })*
+    };
+}
+use cases;
+
+/// What a case's tests are called.
+fn test_name(case: &Case) -> String {
+    format!("case_{:02}_{}", case.number, case.name)
+}
+
+fn in_words(finding: &Finding) -> String {
+    let Finding {
+        what,
+        measured,
+        bound,
+        of,
+        seed,
+        textbook,
+        ..
+    } = finding;
+    let mut words = format!("{what}: {measured:e} of {of}");
+    if let Some(bound) = bound {
+        words += &format!(", at most {bound:e}");
+    }
+    if let Some(seed) = seed {
+        words += &format!(", seed {seed}");
+    }
+    if let Some(textbook) = textbook {
+        words += &format!(" (textbook: {textbook:e})");
+    }
+    words
+}
+
+/// Measures a case; prints all figures and fails with those that exceed their bounds.
+fn check(name: &str, scalar: ScalarName) {
+    let cases = Case::all();
+    let case = cases
+        .iter()
+        .find(|case| test_name(case) == name)
+        .expect("the catalogue has the case");
+    println!("{name}: {}", case.expected);
+    if let Some(check) = case.on_boards() {
+        let file = check.split(',').next().expect("a file");
+        let source = std::fs::read_to_string(scanray_stability::scenes::path(file)).expect(file);
+        let mark = format!("Case {} of the catalogue", case.number);
+        assert!(source.contains(&mark), "{file} does not say `{mark}`");
+        println!("skipped here: {check}");
+        return;
+    }
+    let findings = case.measure(scalar, Effort::Quick);
+    assert!(!findings.is_empty(), "nothing was measured");
+    let mut failed = Vec::new();
+    for finding in &findings {
+        let words = in_words(finding);
+        println!("{} {words}", if finding.pass { "ok    " } else { "FAILED" });
+        if !finding.pass {
+            failed.push(words);
+        }
+    }
+    assert!(
+        failed.is_empty(),
+        "{name} in {}: {failed:#?}",
+        scalar.name()
+    );
+}
+
+#[test]
+fn all_69_cases_are_tested_in_their_groups() {
+    let cases = Case::all();
+    let numbers: Vec<u8> = cases.iter().map(|case| case.number).collect();
+    assert_eq!(numbers, (1..=69).collect::<Vec<u8>>());
+    for (group, tested) in [
+        (Group::Geometry, geometry::CASES),
+        (Group::Shading, shading::CASES),
+        (Group::Image, image::CASES),
+        (Group::Input, input::CASES),
+    ] {
+        let catalogue: Vec<_> = cases
+            .iter()
+            .filter(|case| case.group == group)
+            .map(test_name)
+            .collect();
+        assert_eq!(tested, catalogue, "{group:?}");
+    }
+}

@@ -1,0 +1,28 @@
+//! Local colour, shadows, and where secondary rays start.
+
+super::cases! {
+    case_29_sphere_shadows_itself,
+    case_30_plane_shadows_itself,
+    case_31_shell_of_1e_3_radii,
+    case_32_shell_of_1e_4_radii,
+    case_33_sphere_resting_on_a_plane,
+    case_34_light_on_a_surface,
+    case_35_light_inside_an_opaque_sphere,
+    case_36_light_exactly_at_the_hit,
+    case_37_occluder_beyond_the_light,
+    case_38_light_behind_the_surface,
+    case_39_light_of_intensity_1e30,
+    case_40_facing_mirrors_of_coefficient_1,
+    case_41_mirrors_of_0_9_at_depth_16,
+    case_42_length_of_directions,
+    case_43_objects_of_index_1,
+    case_44_index_next_to_1,
+    case_45_critical_angle,
+    case_46_diamond_beyond_the_critical_angle,
+    case_47_nested_glass_and_water_with_a_common_wall,
+    case_48_glass_at_any_depth,
+    case_49_index_of_refraction_zero_negative_or_nan,
+    case_50_shininess,
+    case_51_ends_of_the_phong_base,
+    case_52_reflection_and_refraction_above_1,
+}
