@@ -16,6 +16,7 @@ use crate::commands::man::ManArgs;
 use crate::commands::needs::NeedsArgs;
 use crate::commands::pixel::PixelArgs;
 use crate::commands::render::RenderArgs;
+use crate::commands::report::ReportArgs;
 
 /// Draws scenes for small displays on the desktop, with the bits the device will draw.
 #[derive(Parser, Debug)]
@@ -38,6 +39,7 @@ Examples:
   scanray needs scene.txt                  what it asks of a device: stages, bytes
   scanray pixel scene.txt 4,3              why a pixel has its colour
   scanray diff old.png new.png             how different two pictures are
+  scanray report scene.txt                 what each setting costs and what it buys
   scanray help render                      all that render can do
 
 Exit codes: 0 fine, 1 pictures differ, 2 usage, 3 scene, 4 files."
@@ -79,6 +81,8 @@ pub(crate) enum Command {
     Completions(CompletionsArgs),
     /// Print or write manual pages
     Man(ManArgs),
+    /// Measure what each setting costs and what it buys, as a page with plots
+    Report(ReportArgs),
 }
 
 impl Cli {

@@ -12,10 +12,11 @@ use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use scanray::{
     Color, DisplayColor, Needs, Observer, Picture, PixelSource, Quantizer, Resolution, Scalar,
-    Scanline, Scene, Tracer, WorkCount,
+    Scanline, Scene, Tracer,
 };
 
 use crate::canvas::Canvas;
+use crate::cost::Work;
 use crate::failure::Failure;
 use crate::packet::PacketTracer;
 use crate::progress::Progress;
@@ -51,6 +52,11 @@ impl Workers {
     /// How many there are.
     pub(crate) fn count(&self) -> usize {
         self.0.current_num_threads()
+    }
+
+    /// Lets them do parallel work.
+    pub(crate) fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+        self.0.install(work)
     }
 }
 
@@ -92,28 +98,18 @@ impl<'a, T: Scalar> HostTracer<'a, T> {
         self.0.pixel_observed(&self.0.scanline(y), x, observer)
     }
 
-    /// Rays and tests that the rows take. They are counted by tracing every pixel once more, so that
-    /// drawing is not slowed down by counting.
-    pub(crate) fn count_work(&self, rows: Range<u16>, workers: &Workers) -> WorkCount {
+    /// What the rows take. It is counted by tracing every pixel once more, so that drawing is not slowed
+    /// down by counting.
+    pub(crate) fn count_work(&self, rows: Range<u16>, workers: &Workers) -> Work {
         let tracer = &self.0;
+        let width = tracer.resolution().width;
         let progress = Progress::new("Counting rays".to_owned(), rows.len() as u64);
-        let count_row = |y: u16| {
-            let mut count = WorkCount::default();
+        Work::count(width, rows, workers, |y, counter| {
             let scanline = tracer.scanline(y);
-            for x in 0..tracer.resolution().width {
-                tracer.pixel_observed(&scanline, x, &mut count);
+            for x in 0..width {
+                tracer.pixel_observed(&scanline, x, counter);
             }
             progress.advance(1);
-            count
-        };
-        let sum = |mut a: WorkCount, b: WorkCount| {
-            a.add(&b);
-            a
-        };
-        workers.0.install(|| {
-            rows.into_par_iter()
-                .map(count_row)
-                .reduce(WorkCount::default, sum)
         })
     }
 }

@@ -6,6 +6,7 @@ mod cli;
 mod commands;
 mod compare;
 mod console;
+mod cost;
 mod device_memory;
 mod displays;
 mod drawing;
@@ -21,6 +22,7 @@ mod pools;
 mod progress;
 mod ray_tree;
 mod render_report;
+mod report;
 mod scene_data;
 mod scene_file;
 mod scene_lines;
@@ -29,6 +31,7 @@ mod turntable;
 use std::process::ExitCode;
 
 use cli::{Cli, Command};
+use commands::report as report_command;
 use commands::{ask, bake, completions, diff, fmt, inspect, join, man, needs, pixel, render};
 
 fn main() -> ExitCode {
@@ -44,6 +47,7 @@ fn main() -> ExitCode {
         Command::Ask(args) => ask::run(&args),
         Command::Completions(args) => completions::run(&args),
         Command::Man(args) => man::run(&args),
+        Command::Report(args) => report_command::run(&args),
     };
     result.unwrap_or_else(|failure| failure.report())
 }

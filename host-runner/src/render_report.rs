@@ -3,8 +3,10 @@
 use std::io::{self, Write};
 use std::ops::Range;
 
-use scanray::{PoolUse, Resolution, WorkCount};
+use scanray::{PoolUse, Resolution, Scalar};
 use serde::ser::{Serialize, SerializeMap, Serializer};
+
+use crate::cost::{Core, MODEL, Work};
 
 /// A picture that was drawn, its settings and what it took.
 #[derive(Clone, Debug, serde::Serialize)]
@@ -30,6 +32,10 @@ pub(crate) struct RenderReport {
     pub(crate) counted_by: &'static str,
     pub(crate) rays: Rays,
     pub(crate) tests: Tests,
+    /// What rays, tests and hits are made of: the counts that the instruction model takes.
+    pub(crate) work: Counts,
+    /// What the instruction model predicts for devices; they draw in `f32`.
+    pub(crate) predicted_instructions_per_pixel: Option<Instructions>,
     pub(crate) pools: Pools,
 }
 
@@ -63,13 +69,21 @@ pub(crate) struct Tests {
     total: u64,
 }
 
+/// Counts by name.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Counts(Work);
+
+/// Instructions by core.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Instructions([f64; 3]);
+
 /// How full the pools are.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pools(pub(crate) [PoolUse; 5]);
 
 impl RenderReport {
     /// Enters what the picture took.
-    pub(crate) fn set_work(&mut self, work: &WorkCount) {
+    pub(crate) fn set_work(&mut self, work: &Work) {
         self.rays = Rays {
             primary: work.primary_rays,
             reflected: work.reflected_rays,
@@ -84,6 +98,9 @@ impl RenderReport {
             boxes: work.box_tests,
             total: work.tests(),
         };
+        self.work = Counts(*work);
+        self.predicted_instructions_per_pixel = (self.scalar == f32::NAME)
+            .then(|| Instructions(Core::ALL.map(|core| MODEL.instructions_per_pixel(work, core))));
     }
 
     /// Writes a line of JSON.
@@ -102,6 +119,18 @@ fn serialize_resolution<S: Serializer>(size: &Resolution, to: S) -> Result<S::Ok
     map.serialize_entry("width", &size.width)?;
     map.serialize_entry("height", &size.height)?;
     map.end()
+}
+
+impl Serialize for Counts {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_map(self.0.counts())
+    }
+}
+
+impl Serialize for Instructions {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.collect_map(Core::ALL.map(Core::name).into_iter().zip(self.0))
+    }
 }
 
 impl Serialize for Pools {

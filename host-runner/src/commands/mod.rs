@@ -11,3 +11,4 @@ pub(crate) mod man;
 pub(crate) mod needs;
 pub(crate) mod pixel;
 pub(crate) mod render;
+pub(crate) mod report;

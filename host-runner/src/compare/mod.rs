@@ -5,7 +5,7 @@ mod flip;
 mod picture;
 
 pub(crate) use flip::DEFAULT_PIXELS_PER_DEGREE;
-pub(crate) use picture::{flip_picture, level_picture};
+pub(crate) use picture::{flip_picture, level_legend, level_map, level_picture};
 
 use crate::image::Image;
 

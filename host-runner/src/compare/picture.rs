@@ -19,30 +19,45 @@ const LEGEND_HEIGHT: usize = 14;
 /// Width of a colour of the legend and its label.
 const ENTRY_WIDTH: usize = 62;
 
+/// What the colours of differences in levels stand for.
+pub(crate) fn level_legend() -> [(String, [u8; 3]); 8] {
+    std::array::from_fn(|class| {
+        let label = match (1 << class, (2 << class) - 1) {
+            (1, _) => "1 of 255".to_owned(),
+            (first, last) => format!("{first}-{last}"),
+        };
+        (label, color(TURBO, (class + 1) as f64 / 8.0))
+    })
+}
+
 /// The differences in levels: where there is none the picture itself, grey and dark; elsewhere a colour
 /// for each power of 2.
-pub(crate) fn level_picture(reference: &Image, test: &Image) -> Image {
-    let entries: Vec<_> = (0..8_u32)
-        .map(|class| {
-            let label = match (1 << class, (2 << class) - 1) {
-                (1, _) => "1 of 255".to_owned(),
-                (first, last) => format!("{first}-{last}"),
-            };
-            (label, color(TURBO, f64::from(class + 1) / 8.0))
-        })
-        .collect();
+pub(crate) fn level_map(reference: &Image, test: &Image) -> Image {
+    let legend = level_legend();
     let rows = reference.rgb888.chunks_exact(3);
     let pixels = rows.zip(level_differences(reference, test));
     let pixels = pixels.flat_map(|(pixel, difference)| {
         match difference.into_iter().max().and_then(u8::checked_ilog2) {
-            Some(class) => entries[class as usize].1,
+            Some(class) => legend[class as usize].1,
             None => {
                 let sum: u16 = pixel.iter().map(|value| u16::from(*value)).sum();
                 [(sum / 9) as u8; 3]
             }
         }
     });
-    with_legend(reference, pixels.collect(), &entries)
+    Image {
+        rgb888: pixels.collect(),
+        ..*reference
+    }
+}
+
+/// The same with its legend.
+pub(crate) fn level_picture(reference: &Image, test: &Image) -> Image {
+    with_legend(
+        reference,
+        level_map(reference, test).rgb888,
+        &level_legend(),
+    )
 }
 
 /// The FLIP errors in the colours of its authors, from black (looks the same) to light yellow.

@@ -57,7 +57,7 @@ fn usage_errors_say_what_to_do() {
             &["render", &default, "default.txt"],
             "would both become default.ppm",
         ),
-        (&["rendr"], "a similar subcommand exists: 'render'"),
+        (&["rendr"], "'render'"),
         (&["scene.txt"], "scanray render scene.txt"),
         (&["--size", "9x9"], "scanray render --size"),
     ] {

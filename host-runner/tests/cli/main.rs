@@ -14,4 +14,5 @@ mod manual;
 mod pixel;
 mod program;
 mod render;
+mod report;
 mod turntable;

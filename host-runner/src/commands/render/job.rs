@@ -4,11 +4,12 @@ use std::io;
 use std::ops::Range;
 
 use embedded_graphics::pixelcolor::Rgb888;
-use scanray::{DisplayColor, Picture, Quantizer, Resolution, Scene, WorkCount};
+use scanray::{DisplayColor, Picture, Quantizer, Resolution, Scene};
 
 use super::RenderArgs;
 use crate::canvas::Canvas;
 use crate::console::{print, say};
+use crate::cost::Work;
 use crate::drawing::{Drawing, HostTracer, Parts, Workers};
 use crate::failure::Failure;
 use crate::image::{self, Animation, ImageFormat};
@@ -92,7 +93,7 @@ impl Job<'_> {
         let mut bytes = 0;
         for file in self.files {
             let mut report = self.report(file, axis, &studio);
-            let mut work = args.json.then(WorkCount::default);
+            let mut work = args.json.then(Work::default);
             report.bytes = if file.format == ImageFormat::Gif {
                 self.draw_animation(file, &mut studio, &mut report, work.as_mut())?
             } else {
@@ -177,6 +178,8 @@ impl Job<'_> {
             counted_by: "a second pass, not timed",
             rays: Default::default(),
             tests: Default::default(),
+            work: Default::default(),
+            predicted_instructions_per_pixel: None,
             pools: Pools(studio.pools.usage()),
         }
     }
@@ -206,7 +209,7 @@ impl Job<'_> {
         file: &PictureFile,
         studio: &mut Studio<'_, T>,
         report: &mut RenderReport,
-        mut work: Option<&mut WorkCount>,
+        mut work: Option<&mut Work>,
     ) -> Result<u64, Failure> {
         let in_memory = |error: io::Error| Failure::Files(format!("cannot make the GIF: {error}"));
         let Resolution { width, height } = studio.resolution;
@@ -276,7 +279,7 @@ impl<T: HostScalar + Drawing> Studio<'_, T> {
         job: &Job<'_>,
         step: u16,
         report: &mut RenderReport,
-        work: Option<&mut WorkCount>,
+        work: Option<&mut Work>,
         consume: &mut Consume<'_>,
     ) -> Result<u64, Failure> {
         // Step 0 is the scene as it was loaded.
@@ -294,7 +297,7 @@ impl<T: HostScalar + Drawing> Studio<'_, T> {
             self.draw_in_color::<C>(job, &pixels, report, consume)
         })?;
         if let Some(work) = work {
-            work.add(&tracer.count_work(self.rows.clone(), job.workers));
+            *work = *work + tracer.count_work(self.rows.clone(), job.workers);
         }
         Ok(bytes)
     }

@@ -1,0 +1,7 @@
+//! What a picture costs: the tracer's work, counted, and what it stands for on a microcontroller.
+
+mod instructions;
+mod work;
+
+pub(crate) use instructions::{Core, MODEL};
+pub(crate) use work::{Counter, Work};
