@@ -9,6 +9,7 @@ use crate::commands::ask::AskArgs;
 use crate::commands::bake::BakeArgs;
 use crate::commands::completions::CompletionsArgs;
 use crate::commands::diff::DiffArgs;
+use crate::commands::export::ExportArgs;
 use crate::commands::fmt::FmtArgs;
 use crate::commands::inspect::InspectArgs;
 use crate::commands::join::JoinArgs;
@@ -75,6 +76,8 @@ pub(crate) enum Command {
     Diff(DiffArgs),
     /// Rewrite scenes in canonical form, comments kept
     Fmt(FmtArgs),
+    /// Write a scene for POV-Ray
+    Export(ExportArgs),
     /// Ask which scene to draw: the dialogue of the original program
     Ask(AskArgs),
     /// Print what a shell needs to complete command lines

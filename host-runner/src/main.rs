@@ -19,6 +19,7 @@ mod part;
 mod picture_args;
 mod places;
 mod pools;
+mod povray;
 mod progress;
 mod ray_tree;
 mod render_report;
@@ -32,7 +33,9 @@ use std::process::ExitCode;
 
 use cli::{Cli, Command};
 use commands::report as report_command;
-use commands::{ask, bake, completions, diff, fmt, inspect, join, man, needs, pixel, render};
+use commands::{
+    ask, bake, completions, diff, export, fmt, inspect, join, man, needs, pixel, render,
+};
 
 fn main() -> ExitCode {
     let result = match Cli::from_arguments() {
@@ -44,6 +47,7 @@ fn main() -> ExitCode {
         Command::Pixel(args) => pixel::run(&args),
         Command::Diff(args) => diff::run(&args),
         Command::Fmt(args) => fmt::run(&args),
+        Command::Export(args) => export::run(&args),
         Command::Ask(args) => ask::run(&args),
         Command::Completions(args) => completions::run(&args),
         Command::Man(args) => man::run(&args),

@@ -1,0 +1,102 @@
+//! `scanray export`: a scene for other renderers.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+use scanray::DEFAULT_MAX_DEPTH;
+
+use crate::console::{print, say};
+use crate::failure::Failure;
+use crate::options::{Size, max_depth};
+use crate::output::Place;
+use crate::pools::HostScalar;
+use crate::povray::PovScene;
+use crate::scene_file::SceneSource;
+
+/// The command line.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Camera, objects, light, shadows, highlights, mirrors and glass are the same, and POV-Ray draws the same picture but for
+
+  * colours above 1 in mirrors and behind glass: scanray clamps the colour of every ray to 0…1
+  * total reflection: POV-Ray mirrors there, scanray adds nothing
+  * planes and triangles that bend light (refraction with an index other than 1): POV-Ray takes them for solids
+  * the maximum depth where rays pass straight (index 1): POV-Ray does not count them
+  * highlights of another tint than the light's: POV-Ray gets the mean of their channels
+  * refraction above 0.999, and light that passes an index of 0
+
+Examples:
+  scanray export scene.txt -o scene.pov      then: povray +Iscene.pov +Oscene.png +W800 +H600 -A File_Gamma=1.0
+  scanray export scenes/pyramids.txt -o small.pov --size 160x120
+  scanray export scene.txt                   to standard output")]
+pub(crate) struct ExportArgs {
+    /// Scene file, `-` for standard input
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+
+    /// File that ends in .pov, `-` for standard output
+    #[arg(short, long, value_name = "FILE", default_value = "-")]
+    output: PathBuf,
+
+    /// Width and height in pixels, which decide the width of the view [default: the scene's own]
+    #[arg(long, value_name = "WxH")]
+    size: Option<Size>,
+
+    /// How many mirrored or refracted rays may follow one another, at most 32
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = DEFAULT_MAX_DEPTH,
+        value_parser = max_depth,
+        allow_negative_numbers = true
+    )]
+    max_depth: usize,
+}
+
+/// Writes the scene.
+///
+/// # Errors
+///
+/// [`Failure`].
+pub(crate) fn run(args: &ExportArgs) -> Result<ExitCode, Failure> {
+    let place = place(&args.output)?;
+    let source = SceneSource::named(Some(&args.scene));
+    let mut pools = f64::pools();
+    source.load(&mut pools)?;
+    let scene = pools.as_scene();
+    let pov = PovScene {
+        scene,
+        name: &source.name(),
+        resolution: args.size.map_or(scene.resolution, |Size(size)| size),
+        max_depth: args.max_depth,
+    };
+    match place {
+        None => print(|out| write!(out, "{pov}"))?,
+        Some(place) => {
+            place.write(|file| write!(file, "{pov}"))?;
+            say(format_args!(
+                "Scene for POV-Ray written to {}",
+                place.name()
+            ));
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The file that is meant; `None` for standard output.
+fn place(output: &Path) -> Result<Option<Place>, Failure> {
+    if output.as_os_str() == "-" {
+        return Ok(None);
+    }
+    let is_pov = output
+        .extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("pov"));
+    if !is_pov {
+        return Err(Failure::Usage(format!(
+            "-o {}: the name must end in .pov, for POV-Ray",
+            output.display()
+        )));
+    }
+    Place::file(output).map(Some)
+}
