@@ -18,6 +18,7 @@ use crate::commands::needs::NeedsArgs;
 use crate::commands::pixel::PixelArgs;
 use crate::commands::render::RenderArgs;
 use crate::commands::report::ReportArgs;
+use crate::commands::view::ViewArgs;
 
 /// Draws scenes for small displays on the desktop, with the bits the device will draw.
 #[derive(Parser, Debug)]
@@ -35,6 +36,7 @@ Examples:
   scanray render --display list            displays to choose from
   scanray render scene.txt -o turn.gif --turntable 36
                                            see it from all around
+  scanray view scene.txt                   look at it in the terminal
   scanray inspect scene.txt                check what was read
   scanray bake scene.txt -o scene.rs       put it into a firmware's flash
   scanray needs scene.txt                  what it asks of a device: stages, bytes
@@ -62,6 +64,8 @@ struct NoCommand {
 pub(crate) enum Command {
     /// Draw scenes into image files
     Render(RenderArgs),
+    /// Show a scene in the terminal, and again whenever it is saved
+    View(ViewArgs),
     /// Print a scene as it was read
     Inspect(InspectArgs),
     /// Put a picture or turntable together that was drawn in parts

@@ -32,15 +32,24 @@ impl Failure {
         }
     }
 
+    /// What went wrong, in words; none for a closed pipe.
+    pub(crate) fn words(&self) -> String {
+        match self {
+            Self::Usage(words) | Self::Files(words) => format!("error: {words}"),
+            Self::Scene(report) => report.clone(),
+            Self::ClosedPipe => String::new(),
+        }
+    }
+
     /// Says on standard error what went wrong; returns the exit code.
     pub(crate) fn report(&self) -> ExitCode {
-        let (code, words) = match self {
-            Self::Usage(words) => (2, format!("error: {words}")),
-            Self::Scene(report) => (3, report.clone()),
-            Self::Files(words) => (4, format!("error: {words}")),
+        let code = match self {
+            Self::Usage(_) => 2,
+            Self::Scene(_) => 3,
+            Self::Files(_) => 4,
             Self::ClosedPipe => return ExitCode::SUCCESS,
         };
-        crate::console::say(words);
+        crate::console::say(self.words());
         ExitCode::from(code)
     }
 }

@@ -34,7 +34,7 @@ use std::process::ExitCode;
 use cli::{Cli, Command};
 use commands::report as report_command;
 use commands::{
-    ask, bake, completions, diff, export, fmt, inspect, join, man, needs, pixel, render,
+    ask, bake, completions, diff, export, fmt, inspect, join, man, needs, pixel, render, view,
 };
 
 fn main() -> ExitCode {
@@ -42,6 +42,7 @@ fn main() -> ExitCode {
         Command::Render(args) => render::run(&args),
         Command::Inspect(args) => inspect::run(&args),
         Command::Join(args) => join::run(&args),
+        Command::View(args) => view::run(&args),
         Command::Bake(args) => bake::run(&args),
         Command::Needs(args) => needs::run(&args),
         Command::Pixel(args) => pixel::run(&args),

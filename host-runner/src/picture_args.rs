@@ -91,6 +91,11 @@ impl PictureArgs {
 }
 
 impl PictureSettings {
+    /// The size that was asked for, if one was.
+    pub(crate) fn size(&self) -> Option<Resolution> {
+        self.size
+    }
+
     /// The size of the picture of a scene that has this size of its own.
     pub(crate) fn resolution(&self, own: Resolution) -> Resolution {
         self.size.unwrap_or(own)

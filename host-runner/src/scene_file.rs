@@ -114,16 +114,32 @@ impl SceneSource {
         text: &[u8],
         pools: &mut HostPools<T>,
     ) -> Result<(), Failure> {
-        let report = pools.parse(text).map_err(|error| {
-            Failure::Scene(error_report(&self.name(), text, &error, &renderer()))
-        })?;
-        if let Some(line) = report.short_light_line {
-            say(format_args!(
-                "warning: {}:{line}: the light has 8 numbers instead of 9; the last is used twice",
-                self.name()
-            ));
+        if let Some(warning) = self.parse(text, pools, &renderer())? {
+            say(warning);
         }
         Ok(())
+    }
+
+    /// The same, but the warning is returned.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure::Scene`].
+    pub(crate) fn parse<T: HostScalar>(
+        &self,
+        text: &[u8],
+        pools: &mut HostPools<T>,
+        renderer: &Renderer,
+    ) -> Result<Option<String>, Failure> {
+        let report = pools
+            .parse(text)
+            .map_err(|error| Failure::Scene(error_report(&self.name(), text, &error, renderer)))?;
+        Ok(report.short_light_line.map(|line| {
+            format!(
+                "warning: {}:{line}: the light has 8 numbers instead of 9; the last is used twice",
+                self.name()
+            )
+        }))
     }
 }
 

@@ -13,3 +13,4 @@ pub(crate) mod needs;
 pub(crate) mod pixel;
 pub(crate) mod render;
 pub(crate) mod report;
+pub(crate) mod view;

@@ -26,14 +26,19 @@ fn the_list_says_what_each_name_stands_for() {
     ] {
         assert!(displays.iter().any(|(listed, _)| listed == name), "{name}");
     }
+    // A sky, which takes little time.
+    folder.write("sky.txt", "0\n0 0 0\n8 6\n0 0 0 1 1 1 1 1 1\n0\n1\n0 0 0\n");
     for (name, options) in &displays {
         let options: Vec<&str> = options.iter().map(String::as_str).collect();
-        let by_options = folder.draw(&options);
-        assert!(folder.draw(&["--display", name]) == by_options, "{name}");
+        let by_options = folder.draw(&[&["sky.txt"], &options[..]].concat());
+        assert!(
+            folder.draw(&["sky.txt", "--display", name]) == by_options,
+            "{name}"
+        );
         let size = format!("{}x{}", by_options.width, by_options.height);
         assert!(options.contains(&&*size), "{name}: {options:?}");
     }
-    assert_eq!(folder.names(), ["drawn.ppm"]);
+    assert_eq!(folder.names(), ["drawn.ppm", "sky.txt"]);
 }
 
 #[test]

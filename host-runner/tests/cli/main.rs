@@ -18,3 +18,4 @@ mod program;
 mod render;
 mod report;
 mod turntable;
+mod view;

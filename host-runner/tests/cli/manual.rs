@@ -71,7 +71,7 @@ fn wrong_input_is_told() {
     let folder = Folder::new();
     let said = folder.fail(2, &["man", "rendr"]);
     assert!(
-        said.contains("there is no command rendr; there are render, inspect"),
+        said.contains("there is no command rendr; there are render, view"),
         "{said}"
     );
     let said = folder.fail(4, &["man", "-o", "nowhere"]);

@@ -18,7 +18,7 @@ pub(crate) struct Run {
 }
 
 /// A picture from a P6 file.
-#[derive(Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Picture {
     pub(crate) width: usize,
     pub(crate) height: usize,

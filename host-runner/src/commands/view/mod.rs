@@ -1,0 +1,393 @@
+//! `scanray view`: the picture in the terminal.
+
+mod cells;
+mod screen;
+mod terminal;
+mod watch;
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use annotate_snippets::Renderer;
+use clap::Args;
+use crossterm::event::{self, Event, KeyCode, KeyEventKind, KeyModifiers};
+use embedded_graphics::pixelcolor::Rgb888;
+use scanray::{
+    Budget, Color, DisplayColor, Picture, PixelSource, Progress, Progressive, Quantizer,
+    Resolution, Scalar, Scene,
+};
+
+use self::cells::filling;
+use self::screen::{Pixels, Screen};
+use self::terminal::{FullScreen, Output, is_interrupted};
+use self::watch::Watch;
+use crate::console::print;
+use crate::displays;
+use crate::drawing::{Drawing, HostTracer};
+use crate::failure::Failure;
+use crate::options::{ScalarName, with_color};
+use crate::picture_args::{PictureArgs, PictureSettings};
+use crate::pools::{HostPools, HostScalar};
+use crate::scene_file::SceneSource;
+
+/// The command line.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  scanray view scene.txt                     the picture, as large as the terminal
+  scanray view scene.txt --display ssd1306   as a display shows it
+  scanray view scene.txt | head -n 12        without colours where the output is no terminal
+
+With --watch the picture is drawn again whenever the file is saved: open an editor beside it.
+
+A terminal with 24-bit colours is assumed (two pixels a cell); where NO_COLOR is set or the output is no \
+terminal, letters stand for bright and dark. A display that is larger than the terminal is averaged down.
+
+Exit codes: 0 fine, 2 usage, 3 scene, 4 files, 130 interrupted.")]
+pub(crate) struct ViewArgs {
+    /// Scene file, `-` for standard input; the default scene if there is none
+    #[arg(value_name = "SCENE")]
+    scene: Option<PathBuf>,
+
+    #[command(flatten)]
+    picture: PictureArgs,
+
+    /// Draw again whenever the file is saved; errors are shown below the last good picture; q quits
+    #[arg(short, long)]
+    watch: bool,
+}
+
+/// The terminal shows what is there so far this often.
+const FRAME_TIME: Duration = Duration::from_millis(40);
+
+/// Rays between two looks at the clock.
+const INSTALMENT: Budget = Budget::Rays(2000);
+
+/// Shows the picture.
+///
+/// # Errors
+///
+/// [`Failure`].
+pub(crate) fn run(args: &ViewArgs) -> Result<ExitCode, Failure> {
+    if args.picture.wants_list() {
+        return print(displays::write_list).map(|()| ExitCode::SUCCESS);
+    }
+    let scene = SceneSource::named(args.scene.as_deref());
+    let settings = args.picture.settings();
+    match (args.watch, settings.scalar) {
+        (false, ScalarName::F32) => show::<f32>(&scene, &settings),
+        (false, ScalarName::F64) => show::<f64>(&scene, &settings),
+        (true, ScalarName::F32) => watch::<f32>(&scene, &settings),
+        (true, ScalarName::F64) => watch::<f64>(&scene, &settings),
+    }
+}
+
+/// Why a picture is not finished.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stop {
+    /// The program is to end.
+    Quit,
+    /// The picture is to be drawn anew: another scene or another size.
+    Anew,
+}
+
+/// Draws a picture coarse to fine; `look` sees it now and then, and may stop it.
+fn draw<T: HostScalar + Drawing>(
+    scene: Scene<'_, T>,
+    settings: &PictureSettings,
+    pixels: &mut Pixels,
+    look: &mut dyn FnMut(&Pixels) -> Result<Option<Stop>, Failure>,
+) -> Result<Option<Stop>, Failure> {
+    let resolution = Resolution {
+        width: pixels.width as u16,
+        height: pixels.height as u16,
+    };
+    let tracer = HostTracer::new(scene, resolution, settings.max_depth)?;
+    with_color!(settings.color, C => {
+        let mut screen = Screen::<C>::new(pixels);
+        let picture = Picture::<_, scanray::Exact<C>>::new(&tracer);
+        if settings.dither {
+            draw_progressively(picture.dithered(), &mut screen, look)
+        } else {
+            draw_progressively(picture, &mut screen, look)
+        }
+    })
+}
+
+fn draw_progressively<P: PixelSource, Q: Quantizer<Color: DisplayColor + Into<Rgb888>>>(
+    picture: Picture<P, Q>,
+    screen: &mut Screen<'_, Q::Color>,
+    look: &mut dyn FnMut(&Pixels) -> Result<Option<Stop>, Failure>,
+) -> Result<Option<Stop>, Failure> {
+    let mut progressive = Progressive::of(&picture);
+    let black = Color::<P::Scalar>::new(P::Scalar::ZERO, P::Scalar::ZERO, P::Scalar::ZERO);
+    let mut row = vec![black; usize::from(picture.resolution().width)];
+    let mut looked = Instant::now();
+    loop {
+        let Ok(progress) = progressive.draw(&picture, screen, &mut row, INSTALMENT);
+        if progress == Progress::Done {
+            return Ok(None);
+        }
+        if looked.elapsed() > FRAME_TIME {
+            if let Some(stop) = look(screen.pixels())? {
+                return Ok(Some(stop));
+            }
+            looked = Instant::now();
+        }
+    }
+}
+
+/// The size to draw in, and the size to show.
+fn sizes(
+    settings: &PictureSettings,
+    own: Resolution,
+    columns: u16,
+    lines: u16,
+) -> (Resolution, Resolution) {
+    let Some(size) = settings.size() else {
+        let size = filling(own, columns, lines);
+        return (size, size);
+    };
+    if size.width <= columns && u32::from(size.height) <= 2 * u32::from(lines) {
+        (size, size)
+    } else {
+        (size, filling(size, columns, lines))
+    }
+}
+
+/// The lines that show a picture in this size.
+fn lines(pixels: &Pixels, shown: Resolution, output: &Output) -> Vec<String> {
+    let is_same = (pixels.width, pixels.height) == (shown.width.into(), shown.height.into());
+    if is_same {
+        cells::lines(pixels, output.style)
+    } else {
+        cells::lines(&pixels.averaged(shown), output.style)
+    }
+}
+
+/// Shows a scene once, below the command line.
+fn show<T: HostScalar + Drawing>(
+    source: &SceneSource,
+    settings: &PictureSettings,
+) -> Result<ExitCode, Failure> {
+    let mut pools = T::pools();
+    source.load(&mut pools)?;
+    let scene = pools.as_scene();
+    let output = Output::new();
+    // The line below the picture is the next prompt's.
+    let (size, shown) = sizes(settings, scene.resolution, output.columns, output.lines - 1);
+    let mut pixels = Pixels::new(size);
+    let mut lines_above = 0;
+    let mut write = |pixels: &Pixels| {
+        let lines = lines(pixels, shown, &output);
+        let up = match lines_above {
+            0 => String::new(),
+            above => format!("\x1b[{above}A"),
+        };
+        lines_above = lines.len();
+        let mut stdout = io::stdout().lock();
+        let text = up + &lines.join("\n") + "\n";
+        let written = stdout.write_all(text.as_bytes());
+        written
+            .and_then(|()| stdout.flush())
+            .map_err(|error| Failure::stdout(&error))
+    };
+    let is_live = output.is_terminal && output.style == cells::Style::Blocks;
+    let stop = draw(scene, settings, &mut pixels, &mut |pixels| {
+        if is_live {
+            // From now on the program does not end in the middle of a line, which would leave its colours
+            // behind.
+            if is_interrupted() {
+                return Ok(Some(Stop::Quit));
+            }
+            write(pixels)?;
+        }
+        Ok(None)
+    })?;
+    if stop.is_some() {
+        return Ok(ExitCode::from(130));
+    }
+    write(&pixels)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Shows a scene in the whole terminal, and again whenever its file is saved.
+fn watch<T: HostScalar + Drawing>(
+    source: &SceneSource,
+    settings: &PictureSettings,
+) -> Result<ExitCode, Failure> {
+    let SceneSource::File(path) = source else {
+        return Err(Failure::Usage(format!(
+            "--watch: {} cannot be saved; name a scene file, such as scanray view scene.txt --watch",
+            source.name()
+        )));
+    };
+    if !Output::new().is_terminal {
+        return Err(Failure::Usage(
+            "--watch needs a terminal; leave it out to print the picture once".to_owned(),
+        ));
+    }
+    let file = Watch::new(path);
+    let text = source.read()?;
+    is_interrupted();
+    let terminal = FullScreen::enter().map_err(|error| Failure::stdout(&error))?;
+    let mut session = Session {
+        source,
+        settings,
+        terminal,
+        output: Output::new(),
+        file,
+        text: Ok(text),
+        picture: None,
+        message: Vec::new(),
+    };
+    let mut pools = T::pools();
+    loop {
+        let stop = match session.draw(&mut pools)? {
+            Some(stop) => stop,
+            None => session.wait()?,
+        };
+        match stop {
+            Stop::Quit => return Ok(ExitCode::SUCCESS),
+            Stop::Anew => {}
+        }
+    }
+}
+
+/// What is on the terminal.
+struct Session<'a> {
+    source: &'a SceneSource,
+    settings: &'a PictureSettings,
+    terminal: FullScreen,
+    output: Output,
+    file: Watch,
+    /// The text of the scene, or why it cannot be read.
+    text: Result<Vec<u8>, Vec<String>>,
+    /// The last good picture, and the size to show it in.
+    picture: Option<(Pixels, Resolution)>,
+    /// What stands below it.
+    message: Vec<String>,
+}
+
+impl Session<'_> {
+    /// Draws the scene, or says why not.
+    fn draw<T: HostScalar + Drawing>(
+        &mut self,
+        pools: &mut HostPools<T>,
+    ) -> Result<Option<Stop>, Failure> {
+        self.output = Output::new();
+        let text = self.text.as_ref().map_err(Clone::clone);
+        let parsed = text.and_then(|text| {
+            let parsed = self.source.parse(text, pools, &Renderer::plain());
+            parsed.map_err(|failure| message_lines(&failure))
+        });
+        let warning = match parsed {
+            Ok(warning) => warning,
+            Err(message) => {
+                self.message = message;
+                self.show()?;
+                return Ok(None);
+            }
+        };
+        let scene = pools.as_scene();
+        let (size, shown) = sizes(
+            self.settings,
+            scene.resolution,
+            self.output.columns,
+            self.output.lines.saturating_sub(1).max(1),
+        );
+        let start = Instant::now();
+        let mut pixels = Pixels::new(size);
+        let status = |state: &str| {
+            let name = self.source.name();
+            let (width, height) = (size.width, size.height);
+            let scale = if size == shown {
+                String::new()
+            } else {
+                format!(", shown as {}x{}", shown.width, shown.height)
+            };
+            format!("{name}  {width}x{height}{scale}  {state}  q quits")
+        };
+        self.message = vec![status("drawing")];
+        let settings = self.settings;
+        let stop = draw(scene, settings, &mut pixels, &mut |pixels| {
+            self.picture = Some((pixels.clone(), shown));
+            self.show()?;
+            self.stop(Duration::ZERO)
+        })?;
+        if stop.is_none() {
+            let state = format!("{} ms", start.elapsed().as_millis());
+            self.message = warning.into_iter().chain([status(&state)]).collect();
+            self.picture = Some((pixels, shown));
+            self.show()?;
+        }
+        Ok(stop)
+    }
+
+    /// Waits until there is something to do.
+    fn wait(&mut self) -> Result<Stop, Failure> {
+        loop {
+            if let Some(stop) = self.stop(Duration::from_millis(30))? {
+                return Ok(stop);
+            }
+        }
+    }
+
+    /// Whether to stop, after so much time at most.
+    fn stop(&mut self, patience: Duration) -> Result<Option<Stop>, Failure> {
+        let in_terminal = |error: io::Error| Failure::stdout(&error);
+        let mut patience = patience;
+        while event::poll(patience).map_err(in_terminal)? {
+            patience = Duration::ZERO;
+            match event::read().map_err(in_terminal)? {
+                Event::Key(key) if key.kind != KeyEventKind::Release => {
+                    let is_control = key.modifiers.contains(KeyModifiers::CONTROL);
+                    match key.code {
+                        KeyCode::Char('q') | KeyCode::Esc => return Ok(Some(Stop::Quit)),
+                        KeyCode::Char('c' | 'd') if is_control => return Ok(Some(Stop::Quit)),
+                        _ => {}
+                    }
+                }
+                Event::Resize(..) => return Ok(Some(Stop::Anew)),
+                _ => {}
+            }
+        }
+        if is_interrupted() {
+            return Ok(Some(Stop::Quit));
+        }
+        if !self.file.may_have_changed() {
+            return Ok(None);
+        }
+        let before = std::mem::replace(
+            &mut self.text,
+            self.source
+                .read()
+                .map_err(|failure| message_lines(&failure)),
+        );
+        Ok((self.text != before).then_some(Stop::Anew))
+    }
+
+    /// The picture and, over its last lines if need be, the message.
+    fn show(&self) -> Result<(), Failure> {
+        let [columns, rows] = [self.output.columns, self.output.lines].map(usize::from);
+        let mut lines = match &self.picture {
+            Some((pixels, shown)) => lines(pixels, *shown, &self.output),
+            None => Vec::new(),
+        };
+        let message = self.message.iter().take(rows);
+        lines.truncate(rows - message.len());
+        lines.extend(message.map(|line| line.chars().take(columns).collect()));
+        self.terminal
+            .show(&lines, self.output.lines)
+            .map_err(|error| Failure::stdout(&error))
+    }
+}
+
+/// What went wrong, without anything that a terminal would obey.
+fn message_lines(failure: &Failure) -> Vec<String> {
+    let words = failure.words();
+    let clean = |line: &str| line.replace(char::is_control, "\u{fffd}");
+    words.lines().map(clean).collect()
+}
