@@ -128,7 +128,7 @@ pub(crate) fn centiseconds(word: &str) -> Result<u16, String> {
 ///
 /// A sentence.
 pub(crate) fn max_depth(word: &str) -> Result<usize, String> {
-    const MOST: usize = crate::drawing::MAX_DEPTH;
+    const MOST: usize = crate::host_tracer::MAX_DEPTH;
     word.parse()
         .ok()
         .filter(|depth| *depth <= MOST)

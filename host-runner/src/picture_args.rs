@@ -1,10 +1,12 @@
 //! What decides the picture of a scene, for every command that draws one.
 
 use clap::{ArgAction, Args};
-use scanray::{DEFAULT_MAX_DEPTH, Resolution};
+use scanray::{DEFAULT_MAX_DEPTH, DisplayColor, Resolution};
 
 use crate::displays::{Display, DisplayChoice};
-use crate::options::{ColorName, ScalarName, Size, max_depth, name_of};
+use crate::failure::Failure;
+use crate::knobs::{CutoffChoice, Detail, Knobs, SampleCount, fraction};
+use crate::options::{ColorName, ScalarName, Size, max_depth, name_of, with_color};
 
 /// The options of the command line.
 #[derive(Args, Debug)]
@@ -44,6 +46,29 @@ pub(crate) struct PictureArgs {
     )]
     max_depth: usize,
 
+    /// Leave out mirrored and refracted rays that together make no channel darker by this share or more,
+    /// such as 1/512; none; auto: less than a level of the display's colours
+    #[arg(
+        long,
+        value_name = "SHARE",
+        default_value = "none",
+        allow_negative_numbers = true
+    )]
+    cutoff: CutoffChoice,
+
+    /// Samples in each pixel, on a fixed pattern [default: 1, or 16 with --adaptive]
+    #[arg(long, value_name = "N", hide_possible_values = false)]
+    samples: Option<SampleCount>,
+
+    /// Take the samples only where a pixel differs from a neighbour by more than this share, such as
+    /// 1/16, in a channel
+    #[arg(long, value_name = "SHARE", value_parser = fraction, allow_negative_numbers = true)]
+    adaptive: Option<f64>,
+
+    /// Draw as far as a picture that appears coarse to fine: blocks of 4x4 pixels, of 2x2, or all
+    #[arg(long, value_name = "DETAIL", default_value = "full")]
+    preview: Detail,
+
     /// Number type of the tracer
     #[arg(long, value_name = "TYPE", default_value = "f32")]
     scalar: ScalarName,
@@ -56,6 +81,7 @@ pub(crate) struct PictureSettings {
     pub(crate) color: ColorName,
     pub(crate) dither: bool,
     pub(crate) max_depth: usize,
+    pub(crate) knobs: Knobs,
     pub(crate) scalar: ScalarName,
 }
 
@@ -66,20 +92,49 @@ impl PictureArgs {
     }
 
     /// What the options say.
-    pub(crate) fn settings(&self) -> PictureSettings {
+    ///
+    /// # Errors
+    ///
+    /// [`Failure::Usage`] when they contradict each other.
+    pub(crate) fn settings(&self) -> Result<PictureSettings, Failure> {
         let display = self.display();
         let color = self.color.or(display.map(|display| display.color));
+        let color = color.unwrap_or(ColorName::Rgb888);
         let dither = self.dither.or(display.map(|display| display.dither));
-        PictureSettings {
+        Ok(PictureSettings {
             size: match self.size {
                 Some(Size(size)) => Some(size),
                 None => display.map(|display| display.resolution()),
             },
-            color: color.unwrap_or(ColorName::Rgb888),
+            color,
             dither: dither.unwrap_or(false),
             max_depth: self.max_depth,
+            knobs: self.knobs(color)?,
             scalar: self.scalar,
-        }
+        })
+    }
+
+    fn knobs(&self, color: ColorName) -> Result<Knobs, Failure> {
+        let samples = match (self.samples, self.adaptive) {
+            (Some(SampleCount::One), Some(_)) => {
+                return Err(Failure::Usage(
+                    "--adaptive takes more samples at edges: give --samples 4, 16 or 64, or leave it out"
+                        .to_owned(),
+                ));
+            }
+            (Some(samples), _) => samples,
+            (None, Some(_)) => SampleCount::Sixteen,
+            (None, None) => SampleCount::One,
+        };
+        Ok(Knobs {
+            cutoff: match self.cutoff {
+                CutoffChoice::Auto => with_color!(color, C => C::LEVEL.into()),
+                CutoffChoice::Of(cutoff) => cutoff,
+            },
+            samples,
+            edges: self.adaptive,
+            detail: self.preview,
+        })
     }
 
     fn display(&self) -> Option<Display> {
@@ -111,6 +166,13 @@ impl PictureSettings {
             color,
             dither,
             max_depth,
+            knobs:
+                Knobs {
+                    cutoff,
+                    samples,
+                    edges,
+                    detail,
+                },
             scalar,
         } = *self;
         let dither = if dither { "on" } else { "off" };
@@ -119,6 +181,13 @@ impl PictureSettings {
             ("version", env!("CARGO_PKG_VERSION").to_owned()),
             ("scalar", name_of(scalar)),
             ("max-depth", max_depth.to_string()),
+            ("cutoff", cutoff.to_string()),
+            ("samples", name_of(samples)),
+            (
+                "adaptive",
+                edges.map_or("off".to_owned(), |edges| edges.to_string()),
+            ),
+            ("preview", name_of(detail)),
             ("color", name_of(color)),
             ("dither", dither.to_owned()),
         ]

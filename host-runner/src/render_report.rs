@@ -23,6 +23,13 @@ pub(crate) struct RenderReport {
     pub(crate) color: String,
     pub(crate) dither: bool,
     pub(crate) max_depth: usize,
+    /// What the rays that are not cast may take from a channel.
+    pub(crate) cutoff: f64,
+    /// In a pixel.
+    pub(crate) samples: usize,
+    /// The difference that is an edge, if only pixels at edges have more than one sample.
+    pub(crate) adaptive: Option<f64>,
+    pub(crate) preview: String,
     pub(crate) threads: usize,
     /// Wall time of drawing, without loading, writing and counting.
     pub(crate) seconds: f64,

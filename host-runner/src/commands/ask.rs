@@ -10,8 +10,10 @@ use scanray::{DEFAULT_MAX_DEPTH, Exact, Picture};
 
 use crate::canvas::Canvas;
 use crate::console::{print, say};
-use crate::drawing::{Drawing, HostTracer, Parts, Workers};
+use crate::drawing::{Parts, Workers};
 use crate::failure::Failure;
+use crate::host_pixels::Drawing;
+use crate::host_tracer::HostTracer;
 use crate::image::{self, ImageFormat};
 use crate::output::Place;
 use crate::pools::HostScalar;

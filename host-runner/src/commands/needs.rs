@@ -76,7 +76,7 @@ pub(crate) fn run(args: &NeedsArgs) -> Result<ExitCode, Failure> {
     if args.picture.wants_list() {
         return print(displays::write_list).map(|()| ExitCode::SUCCESS);
     }
-    match args.picture.settings().scalar {
+    match args.picture.settings()?.scalar {
         ScalarName::F32 => tell::<f32>(args, |scene| scene.needs())?,
         ScalarName::F64 => tell::<f64>(args, |scene| scene.needs())?,
     }
@@ -87,7 +87,7 @@ fn tell<T: HostScalar>(
     args: &NeedsArgs,
     needs: impl Fn(&scanray::Scene<'_, T>) -> Needs,
 ) -> Result<(), Failure> {
-    let settings = args.picture.settings();
+    let settings = args.picture.settings()?;
     let source = SceneSource::named(args.scene.as_deref());
     let mut pools = T::pools();
     source.load(&mut pools)?;

@@ -11,8 +11,8 @@ use scanray::{DisplayColor, Picture, Resolution};
 
 use crate::console::print;
 use crate::displays;
-use crate::drawing::HostTracer;
 use crate::failure::Failure;
+use crate::host_tracer::HostTracer;
 use crate::options::{ScalarName, name_of, with_color};
 use crate::picture_args::{PictureArgs, PictureSettings};
 use crate::pools::HostScalar;
@@ -80,7 +80,7 @@ pub(crate) fn run(args: &PixelArgs) -> Result<ExitCode, Failure> {
     if args.picture.wants_list() {
         return print(displays::write_list).map(|()| ExitCode::SUCCESS);
     }
-    let settings = args.picture.settings();
+    let settings = args.picture.settings()?;
     match settings.scalar {
         ScalarName::F32 => tell::<f32>(args, &settings)?,
         ScalarName::F64 => tell::<f64>(args, &settings)?,
@@ -105,7 +105,7 @@ fn tell<T: HostScalar>(args: &PixelArgs, settings: &PictureSettings) -> Result<(
             )));
         }
     }
-    let tracer = HostTracer::new(scene, size, settings.max_depth)?;
+    let tracer = HostTracer::new(scene, size, settings.max_depth)?.with_knobs(settings.knobs);
     let (lines, file) = (object_lines(&text), source.name());
     let names = Names {
         scene: &scene,

@@ -25,9 +25,11 @@ use fearless_simd::Level;
 use fearless_simd::prelude::*;
 use scanray::shape::{Plane, Sphere, Surface, Triangle};
 use scanray::{
-    Background, Color, Material, Needs, Object, ObjectSet, PixelSource, Reach, Resolution,
-    Scanline, Side, Tracer,
+    Background, Color, Material, Needs, Object, ObjectSet, Reach, Resolution, Scanline, Side,
+    Tracer,
 };
+
+use crate::host_tracer::SampleRow;
 
 use batch::{Batch, CAPACITY, NOTHING, NOWHERE};
 use lanes::{Colors, Indices, LANES, Mask, Numbers, Rays, Vec3s};
@@ -135,41 +137,44 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
         members(&self.triangles, self.spheres.len() + self.planes.len(), set)
     }
 
-    /// The linear colours of the part of row `y` that starts at column `x`: those of `Tracer::pixel`.
-    pub(crate) fn row(&self, x: u16, y: u16, colors: &mut [Color]) {
+    /// The linear colours at a place in pixels of a row: those of `Tracer::sample_observed`.
+    pub(crate) fn sample_row(&self, places: SampleRow, colors: &mut [Color]) {
         #[cfg(target_arch = "x86_64")]
         if let Some(simd) = self.level.as_avx2() {
-            return self.row_on(simd, x, y, colors);
+            return self.row_on(simd, places, colors);
         }
         #[cfg(target_arch = "x86_64")]
         if let Some(simd) = self.level.as_sse4_2() {
-            return self.row_on(simd, x, y, colors);
+            return self.row_on(simd, places, colors);
         }
         #[cfg(target_arch = "aarch64")]
         if let Some(simd) = self.level.as_neon() {
-            return self.row_on(simd, x, y, colors);
+            return self.row_on(simd, places, colors);
         }
         // Without wide vectors the core is the fastest, and less to compile.
-        let scanline = self.tracer.scanline(y);
-        for (x, color) in (x..=u16::MAX).zip(colors) {
-            *color = self.tracer.pixel_observed(&scanline, x, &mut ());
+        let SampleRow { x, step, y, at } = places;
+        let scanline = self.tracer.scanline_at(y, at);
+        for (x, color) in (x..=u16::MAX).step_by(step.into()).zip(colors) {
+            *color = self.tracer.sample_observed(&scanline, x, at, &mut ());
         }
     }
 
-    /// [`PacketTracer::row`] with vectors.
-    fn row_on<S: Simd>(&self, simd: S, x: u16, y: u16, colors: &mut [Color]) {
+    /// [`PacketTracer::sample_row`] with vectors.
+    fn row_on<S: Simd>(&self, simd: S, places: SampleRow, colors: &mut [Color]) {
         let mut workspace = self.workspaces().pop().unwrap_or_else(|| Workspace {
             batches: (0..=self.tracer.max_depth())
                 .map(|_| Batch::new())
                 .collect(),
             counts: vec![0; self.objects.len()],
         });
-        let scanline = self.tracer.scanline(y);
-        let starts = (usize::from(x)..).step_by(CAPACITY);
-        for (start, colors) in starts.zip(colors.chunks_mut(CAPACITY)) {
+        let scanline = self.tracer.scanline_at(places.y, places.at);
+        for (stretch, colors) in colors.chunks_mut(CAPACITY).enumerate() {
             simd.vectorize(
                 #[inline(always)]
-                || self.stretch(simd, &mut workspace, start, &scanline, colors),
+                || {
+                    let start = stretch * CAPACITY;
+                    self.stretch(simd, &mut workspace, places, start, &scanline, colors);
+                },
             );
         }
         self.workspaces().push(workspace);
@@ -179,13 +184,14 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
         self.idle.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Traces the pixels of a row that start at column `x`, as many as a batch holds.
+    /// Traces the places of a row from the one numbered `start` on, as many as a batch holds.
     #[inline(always)]
     fn stretch<S: Simd>(
         &self,
         simd: S,
         Workspace { batches, counts }: &mut Workspace,
-        x: usize,
+        places: SampleRow,
+        start: usize,
         scanline: &Scanline,
         colors: &mut [Color],
     ) {
@@ -193,12 +199,16 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
         let origin = Vec3s::splat(simd, self.tracer.scene().camera.position);
         let batch = &mut batches[0];
         for at in (0..colors.len()).step_by(LANES) {
-            // `Camera::ray`.
+            // `Camera::ray_at`.
+            let of = i32::from(places.at.of);
             let column = Numbers::from_fn(simd, |lane| {
-                (2 * (x + at + lane) as i32 + 1 - i32::from(width)) as f32
+                let pixel =
+                    i32::from(places.x) + (start + at + lane) as i32 * i32::from(places.step);
+                let column = pixel * of + i32::from(places.at.column);
+                (2 * column + 1 - i32::from(width) * of) as f32
             });
             let direction = Vec3s::new(
-                column / f32::from(height),
+                column / (i32::from(height) * of) as f32,
                 Numbers::splat(simd, scanline.row_height()),
                 Numbers::splat(simd, 1.0),
             );
@@ -371,27 +381,4 @@ fn members<O>(objects: &[O], first: usize, set: ObjectSet) -> impl Iterator<Item
         .zip(objects)
         .filter(move |(index, _)| set.contains(*index))
         .map(|(_, object)| object)
-}
-
-/// A scanline is a row that is traced already, so that [`Picture`](scanray::Picture) draws packets like
-/// single rays.
-impl<const STACK: usize> PixelSource for PacketTracer<'_, STACK> {
-    type Scalar = f32;
-    type Scanline = Vec<Color>;
-
-    fn resolution(&self) -> Resolution {
-        self.tracer.resolution()
-    }
-
-    fn scanline(&self, y: u16) -> Vec<Color> {
-        let mut row = vec![Color::BLACK; self.tracer.resolution().width.into()];
-        self.row(0, y, &mut row);
-        row
-    }
-
-    /// The rays are not counted: the number is 0.
-    #[inline(always)]
-    fn pixel_on(&self, row: &Vec<Color>, x: u16) -> (Color, u32) {
-        (row[usize::from(x)], 0)
-    }
 }

@@ -3,20 +3,20 @@
 use std::cell::Cell;
 use std::path::PathBuf;
 
-use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
 use fearless_simd::Level;
 use scanray::shape::{Sphere, Surface};
 use scanray::{
-    Background, Camera, Color, Exact, Light, Material, MaterialDescription, Picture, Resolution,
-    Scene, SceneError, ScenePools, Tracer, Tree, Vec3,
+    Background, Camera, Color, Light, Material, MaterialDescription, Resolution, Scene, SceneError,
+    ScenePools, Subpixel, Supersampled, Tracer, Tree, Vec3,
 };
 
 use super::PacketTracer;
+use crate::host_tracer::SampleRow;
 
 type Pools = ScenePools<f32, 64, 64, 64, 192, 4, 192>;
 
 /// That of the host, so that everything is compiled once.
-const STACK: usize = crate::drawing::MAX_DEPTH;
+const STACK: usize = crate::host_tracer::MAX_DEPTH;
 
 /// The levels of this machine, the scalar one included where there is one.
 fn levels() -> Vec<Level> {
@@ -34,6 +34,16 @@ fn levels() -> Vec<Level> {
         .collect()
 }
 
+/// The centres of the pixels of row `y` from column `x` on.
+fn places(x: u16, y: u16) -> SampleRow {
+    SampleRow {
+        x,
+        step: 1,
+        y,
+        at: Subpixel::CENTER,
+    }
+}
+
 /// Compares rows of a picture with the core's pixels.
 fn assert_same(name: &str, scene: Scene<'_>, width: u16, height: u16, max_depth: usize) {
     let tracer = Tracer::new(scene)
@@ -48,7 +58,7 @@ fn assert_same(name: &str, scene: Scene<'_>, width: u16, height: u16, max_depth:
         // The bits of an outdated row must not show.
         let mut row = vec![Color::new(f32::NAN, 2.0, -1.0); width.into()];
         for y in 0..height {
-            packets.row(0, y, &mut row);
+            packets.sample_row(places(0, y), &mut row);
             for (x, color) in (0..).zip(&row) {
                 let bits = |c: &Color| [c.r, c.g, c.b].map(f32::to_bits);
                 let expected = tracer.pixel(x, y);
@@ -111,11 +121,39 @@ fn draws_parts_of_rows() {
         .with_stack::<STACK>();
     let packets = PacketTracer::new(tracer);
     let mut part = [Color::default(); 13];
-    packets.row(391, 300, &mut part);
+    packets.sample_row(places(391, 300), &mut part);
     for (x, color) in (391..).zip(part) {
         assert_eq!(color, tracer.pixel(x, 300));
     }
-    packets.row(5, 5, &mut []);
+    packets.sample_row(places(5, 5), &mut []);
+}
+
+#[test]
+fn draws_places_beside_the_centres_of_some_columns() {
+    let pools = load("default");
+    let tracer = Tracer::new(pools.as_scene())
+        .with_tree()
+        .with_stack::<STACK>()
+        .with_resolution(Resolution {
+            width: 61,
+            height: 47,
+        });
+    for level in levels() {
+        let mut packets = PacketTracer::new(tracer);
+        packets.level = level;
+        let pattern = Supersampled::<(), 64>::PATTERN.into_iter().step_by(13);
+        for (at, (x, step)) in pattern.zip([(0, 1), (3, 1), (0, 2), (0, 4), (5, 3)]) {
+            let y = u16::from(at.row) % 47;
+            let mut colors = vec![Color::default(); (61 - usize::from(x)).div_ceil(step)];
+            let step = step as u16;
+            packets.sample_row(SampleRow { x, step, y, at }, &mut colors);
+            let scanline = tracer.scanline_at(y, at);
+            for (x, color) in (x..).step_by(step.into()).zip(colors) {
+                let expected = tracer.sample_observed(&scanline, x, at, &mut ());
+                assert_eq!(color, expected, "{level:?}, {at:?}, pixel ({x}, {y})");
+            }
+        }
+    }
 }
 
 #[test]
@@ -131,10 +169,10 @@ fn draws_a_picture_from_several_threads() {
     let packets = PacketTracer::new(tracer);
     let rows = |rows: std::ops::Range<u16>| {
         for y in rows {
-            let mut row = [Rgb888::BLACK; 64];
-            Picture::<_, Exact<Rgb888>>::new(&packets).row(0, y, &mut row);
+            let mut row = [Color::default(); 64];
+            packets.sample_row(places(0, y), &mut row);
             for (x, color) in (0..).zip(row) {
-                assert_eq!(color, Picture::new(&tracer).pixel(x, y));
+                assert_eq!(color, tracer.pixel(x, y));
             }
         }
     };

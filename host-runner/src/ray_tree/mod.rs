@@ -208,7 +208,7 @@ impl<T: Scalar> HitNode<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::HostTracer;
+    use crate::host_tracer::HostTracer;
     use crate::pools::HostScalar;
     use scanray::{Resolution, Scene};
 

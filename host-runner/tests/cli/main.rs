@@ -11,6 +11,7 @@ mod files;
 mod fmt;
 mod inspect;
 mod join;
+mod knobs;
 mod manual;
 mod needs;
 mod pixel;

@@ -10,8 +10,10 @@ use super::RenderArgs;
 use crate::canvas::Canvas;
 use crate::console::{print, say};
 use crate::cost::Work;
-use crate::drawing::{Drawing, HostTracer, Parts, Workers};
+use crate::drawing::{Parts, Workers};
 use crate::failure::Failure;
+use crate::host_pixels::{Drawing, HostPixels};
+use crate::host_tracer::HostTracer;
 use crate::image::{self, Animation, ImageFormat};
 use crate::options::{RangeOption, name_of, with_color};
 use crate::output::Place;
@@ -172,6 +174,10 @@ impl Job<'_> {
             color: name_of(settings.color),
             dither: settings.dither,
             max_depth: settings.max_depth,
+            cutoff: settings.knobs.cutoff,
+            samples: settings.knobs.samples.pattern().len(),
+            adaptive: settings.knobs.edges,
+            preview: name_of(settings.knobs.detail),
             threads: self.workers.count(),
             seconds: 0.0,
             cpu_seconds: 0.0,
@@ -291,7 +297,8 @@ impl<T: HostScalar + Drawing> Studio<'_, T> {
                 })?;
         }
         let scene = self.pools.as_scene();
-        let tracer = HostTracer::new(scene, self.resolution, job.settings.max_depth)?;
+        let tracer = HostTracer::new(scene, self.resolution, job.settings.max_depth)?
+            .with_knobs(job.settings.knobs);
         let pixels = T::pixels(&tracer);
         let bytes = with_color!(job.settings.color, C => {
             self.draw_in_color::<C>(job, &pixels, report, consume)
@@ -305,7 +312,7 @@ impl<T: HostScalar + Drawing> Studio<'_, T> {
     fn draw_in_color<C: DisplayColor + Into<Rgb888> + Send + Sync>(
         &self,
         job: &Job<'_>,
-        pixels: &T::Pixels<'_>,
+        pixels: &HostPixels<'_, T>,
         report: &mut RenderReport,
         consume: &mut Consume<'_>,
     ) -> Result<u64, Failure> {
@@ -321,7 +328,7 @@ impl<T: HostScalar + Drawing> Studio<'_, T> {
     fn draw_picture<Q: Quantizer<Color: DisplayColor + Into<Rgb888> + Send> + Sync>(
         &self,
         job: &Job<'_>,
-        picture: Picture<&T::Pixels<'_>, Q>,
+        picture: Picture<&HostPixels<'_, T>, Q>,
         report: &mut RenderReport,
         consume: &mut Consume<'_>,
     ) -> Result<u64, Failure> {

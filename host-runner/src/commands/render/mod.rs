@@ -108,7 +108,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<ExitCode, Failure> {
     if args.picture.wants_list() {
         return print(displays::write_list).map(|()| ExitCode::SUCCESS);
     }
-    let settings = args.picture.settings();
+    let settings = args.picture.settings()?;
     let turntable = args.steps()?;
     let scenes = SceneSource::list(&args.scenes);
     let places = places(&scenes, args.output.as_deref(), turntable.as_ref())?;
