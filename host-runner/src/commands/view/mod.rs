@@ -25,8 +25,9 @@ use self::terminal::{FullScreen, Output, is_interrupted};
 use self::watch::Watch;
 use crate::console::print;
 use crate::displays;
-use crate::drawing::{Drawing, HostTracer};
 use crate::failure::Failure;
+use crate::host_pixels::Drawing;
+use crate::host_tracer::HostTracer;
 use crate::options::{ScalarName, with_color};
 use crate::picture_args::{PictureArgs, PictureSettings};
 use crate::pools::{HostPools, HostScalar};
@@ -75,7 +76,7 @@ pub(crate) fn run(args: &ViewArgs) -> Result<ExitCode, Failure> {
         return print(displays::write_list).map(|()| ExitCode::SUCCESS);
     }
     let scene = SceneSource::named(args.scene.as_deref());
-    let settings = args.picture.settings();
+    let settings = args.picture.settings()?;
     match (args.watch, settings.scalar) {
         (false, ScalarName::F32) => show::<f32>(&scene, &settings),
         (false, ScalarName::F64) => show::<f64>(&scene, &settings),
@@ -104,7 +105,7 @@ fn draw<T: HostScalar + Drawing>(
         width: pixels.width as u16,
         height: pixels.height as u16,
     };
-    let tracer = HostTracer::new(scene, resolution, settings.max_depth)?;
+    let tracer = HostTracer::new(scene, resolution, settings.max_depth)?.with_knobs(settings.knobs);
     with_color!(settings.color, C => {
         let mut screen = Screen::<C>::new(pixels);
         let picture = Picture::<_, scanray::Exact<C>>::new(&tracer);
