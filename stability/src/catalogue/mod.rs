@@ -1,7 +1,8 @@
 //! The catalogue: 69 numbered cases, what is expected of each, and what is measured.
 //!
 //! In every case: no channel is other than finite and in 0…1 before quantisation, nothing panics, no pixel
-//! takes more rays than the tracer promises. A pixel is *settled* when its `f64` colour stays within 1 level
+//! takes more rays than the tracer promises; with the cut-off of 8 bits no pixel is brighter, and none more
+//! than 1 level darker. A pixel is *settled* when its `f64` colour stays within 1 level
 //! of 255 while the sample moves by a thousandth of a pixel in x and y; the others lie on an edge that
 //! rounding alone may move; they are counted, and at most 1 % of a picture. The tiers compare settled pixels
 //! with the same scene in `f64`: **A** at most 1 level off, and that on at most 0.02 %; **B** at most 0.1 %

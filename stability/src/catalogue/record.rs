@@ -1,6 +1,7 @@
 //! What is measured of a case.
 
-use scanray::{Color, Observer, Ray, RayCount, Scalar, Tracer, Vec3};
+use embedded_graphics::pixelcolor::Rgb888;
+use scanray::{Color, DisplayColor, Observer, Ray, RayCount, Scalar, Tracer, Vec3};
 use serde::Serialize;
 
 use crate::Number;
@@ -71,6 +72,9 @@ pub struct Record {
     /// Pixels drawn, and those of them that are no colours or took too many rays.
     drawn: u64,
     broken: u64,
+    /// Pixels drawn with a cut-off, too, and those of them that lose more than a level of 8 bits.
+    cut: u64,
+    cut_too_far: u64,
 }
 
 /// A picture's linear colours, row by row.
@@ -84,6 +88,8 @@ impl Record {
             seed: None,
             drawn: 0,
             broken: 0,
+            cut: 0,
+            cut_too_far: 0,
         }
     }
 
@@ -93,6 +99,13 @@ impl Record {
                 "pixels that are no colour or took too many rays",
                 self.broken,
                 self.drawn,
+            );
+        }
+        if self.cut > 0 {
+            self.count(
+                "pixels that lose more than a level to the cut-off of 8 bits",
+                self.cut_too_far,
+                self.cut,
             );
         }
         self.findings
@@ -193,6 +206,7 @@ impl Record {
                 let mut rays = RayCount::default();
                 let color = tracer.pixel_observed(&scanline, x, &mut rays);
                 self.watch(tracer, color, rays);
+                self.cut_off(tracer, tracer.primary_ray(&scanline, x), color);
                 colors.push(color);
             }
         }
@@ -208,6 +222,7 @@ impl Record {
         let mut rays = RayCount::default();
         let color = tracer.radiance_observed(ray, scanray::ObjectSet::ALL, &mut rays);
         self.watch(tracer, color, rays);
+        self.cut_off(tracer, ray, color);
         color
     }
 
@@ -233,6 +248,24 @@ impl Record {
         let is_bounded = u64::from(rays.0) <= tracer.max_rays_per_pixel();
         self.drawn += 1;
         self.broken += u64::from(!(is_color && is_bounded));
+    }
+
+    /// Traces a ray without the rays that hardly show: it sees no more than this colour, and at most one
+    /// level of 8 bits less.
+    fn cut_off<T: Scalar, const NEEDS: u32, const STACK: usize>(
+        &mut self,
+        tracer: &Tracer<'_, T, NEEDS, STACK>,
+        ray: Ray<T>,
+        color: Color<T>,
+    ) {
+        let cut = Tracer::new(*tracer.scene()).with_stack::<STACK>();
+        let cut = cut.with_max_depth(tracer.max_depth()).unwrap_or(cut);
+        let cut = cut.with_cutoff(T::from_f64(Rgb888::LEVEL.into()));
+        let [whole, cut] = [color, cut.radiance(ray)].map(levels);
+        let keeps_to_it =
+            |(whole, cut): (u8, u8)| whole.checked_sub(cut).is_some_and(|loss| loss <= 1);
+        self.cut += 1;
+        self.cut_too_far += u64::from(!whole.into_iter().zip(cut).all(keeps_to_it));
     }
 
     /// Draws a model in `T`, and compares the settled pixels with those of the model in `f64`. The model is
@@ -264,8 +297,10 @@ impl Record {
             for x in 0..size.width {
                 let actual = if half_height == 1.0 {
                     let mut rays = RayCount::default();
-                    let color = own.pixel_observed(&own.scanline(y), x, &mut rays);
+                    let scanline = own.scanline(y);
+                    let color = own.pixel_observed(&scanline, x, &mut rays);
                     self.watch(&own, color, rays);
+                    self.cut_off(&own, own.primary_ray(&scanline, x), color);
                     color
                 } else {
                     self.see(&own, own_view.ray((x, y), (0.0, 0.0)))
