@@ -37,6 +37,12 @@
 //! small scene by lists of candidates, in a large one by a bounding-volume hierarchy ([`Tree`]), which is
 //! baked into flash or built in the pools if they have room for it.
 //!
+//! # More or less
+//!
+//! [`Tracer::with_cutoff`] leaves out rays that hardly show, with a bound on what is lost. [`Supersampled`] and
+//! [`Adaptive`] sample pixels more than once, everywhere or at edges. [`Progressive`] shows blocks first and
+//! refines them. None costs anything where it is not used, and all keep to the one idea above.
+//!
 //! # Memory
 //!
 //! The caller owns all of it. The core does not allocate and does not recurse: the tree of reflected
