@@ -5,7 +5,7 @@ use core::fmt;
 use crate::color::Color;
 use crate::material::Material;
 use crate::scalar::Scalar;
-use crate::scene::{NodeContent, ObjectSet, Reach, Scene, TreeEntry, TreeNode};
+use crate::scene::{NodeContent, ObjectSet, Reach, Scene, Strip, TreeEntry, TreeNode, Zones};
 use crate::shape::{Plane, Sphere, Surface, Triangle};
 use crate::vec3::Vec3;
 
@@ -102,6 +102,7 @@ impl<T: Scalar> fmt::Display for Baked<'_, Scene<'_, T>> {
         list(f, "triangles", scene.triangles)?;
         list(f, "materials", scene.materials)?;
         list(f, "sides", scene.sides)?;
+        list(f, "zones", scene.zones)?;
         writeln!(f, "    tree: ::scanray::Tree {{")?;
         list(f, "nodes", scene.tree.nodes)?;
         list(f, "entries", scene.tree.entries)?;
@@ -212,6 +213,47 @@ impl<T: Scalar> fmt::Display for Baked<'_, Material<T>> {
             Number(material.inverse_index()),
             Number(material.bend()),
             material.whole_shininess()
+        )
+    }
+}
+
+impl<T: Scalar> fmt::Display for Baked<'_, Zones<T>> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Zones {
+            normal_axis,
+            low,
+            density,
+            strips,
+        } = self.0;
+        let [[low_u, low_v], [density_u, density_v]] = [low, density].map(|pair| pair.map(Number));
+        writeln!(
+            f,
+            "::scanray::Zones {{ normal_axis: {normal_axis}, low: [{low_u}, {low_v}], \
+             density: [{density_u}, {density_v}], strips: ["
+        )?;
+        for axis in strips {
+            writeln!(f, "            [")?;
+            for strip in axis {
+                writeln!(f, "                {},", Baked(strip))?;
+            }
+            writeln!(f, "            ],")?;
+        }
+        write!(f, "        ] }}")
+    }
+}
+
+impl fmt::Display for Baked<'_, Strip> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Strip {
+            ahead: [up, down],
+            occluders,
+        } = self.0;
+        write!(
+            f,
+            "::scanray::Strip {{ ahead: [{}, {}], occluders: {} }}",
+            Baked(up),
+            Baked(down),
+            Baked(occluders)
         )
     }
 }

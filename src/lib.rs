@@ -149,7 +149,7 @@ pub use render::{
 pub use scalar::Scalar;
 pub use scene::{
     Needs, NodeContent, Object, ObjectSet, Octant, Pool, PoolUse, PoolsMut, Reach, Scene,
-    SceneError, ScenePools, Tree, TreeEntry, TreeNode,
+    SceneError, ScenePools, Strip, Tree, TreeEntry, TreeNode, Zones,
 };
 pub use tracer::{
     DEFAULT_MAX_DEPTH, DepthError, LightAtHit, Meeting, MissingStages, Nearest, Observer, RayCount,

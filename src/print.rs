@@ -270,6 +270,7 @@ mod tests {
             triangles: &[],
             materials: &[],
             sides: &[],
+            zones: &[],
             tree: crate::scene::Tree::NONE,
         };
         assert_eq!(

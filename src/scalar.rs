@@ -72,6 +72,9 @@ pub trait Scalar:
     /// The whole part towards zero, saturating; 0 for NaN.
     fn to_u32(self) -> u32;
 
+    /// The whole part towards zero, saturating; 0 for NaN.
+    fn to_i32(self) -> i32;
+
     /// Absolute value.
     fn abs(self) -> Self;
 
@@ -157,6 +160,11 @@ impl Scalar for f32 {
     }
 
     #[inline(always)]
+    fn to_i32(self) -> i32 {
+        self as i32
+    }
+
+    #[inline(always)]
     fn abs(self) -> Self {
         f32::abs(self)
     }
@@ -213,6 +221,11 @@ impl Scalar for f64 {
     #[inline(always)]
     fn to_u32(self) -> u32 {
         self as u32
+    }
+
+    #[inline(always)]
+    fn to_i32(self) -> i32 {
+        self as i32
     }
 
     #[inline(always)]

@@ -14,6 +14,7 @@ use scanray::{
 fn compare<T: Scalar>(scene: Scene<'_, T>, resolution: Resolution, what: impl Fn() -> String) {
     let brute_force = Scene {
         sides: &[],
+        zones: &[],
         tree: Tree::NONE,
         ..scene
     };

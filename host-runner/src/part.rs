@@ -131,6 +131,7 @@ pub(crate) fn scene_identity<T: Scalar>(scene: &Scene<'_, T>) -> String {
         },
         // Derived from the rest.
         sides: &[],
+        zones: &[],
         tree: Tree::NONE,
         ..*scene
     };

@@ -4,12 +4,15 @@ mod needs;
 mod pools;
 mod reach;
 mod tree;
+mod zones;
 
 pub use needs::Needs;
 pub use pools::{Pool, PoolUse, PoolsMut, SceneError, ScenePools};
 pub(crate) use reach::Members;
 pub use reach::{ObjectSet, Octant, Reach};
 pub use tree::{NodeContent, Tree, TreeEntry, TreeNode};
+pub use zones::{Strip, Zones};
+pub(crate) use zones::{Zone, across};
 
 use crate::background::Background;
 use crate::camera::{Camera, Resolution};
@@ -46,6 +49,8 @@ pub struct Scene<'a, T = f32> {
     /// What rays can meet that leave each side of each object, by [`Side::index`](crate::Side::index);
     /// where there is no entry, anything.
     pub sides: &'a [Reach],
+    /// What rays can meet that leave each plane, by place; where there is no entry, what `sides` says.
+    pub zones: &'a [Zones<T>],
     /// Of a large scene, what its spheres and triangles are found by.
     pub tree: Tree<'a, T>,
 }

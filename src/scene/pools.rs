@@ -4,7 +4,7 @@ use core::fmt;
 
 use heapless::{Vec, VecView};
 
-use super::{Object, Reach, Scene, Tree, TreeEntry, TreeNode};
+use super::{Object, Reach, Scene, Tree, TreeEntry, TreeNode, Zones};
 use crate::background::Background;
 use crate::camera::{Camera, Resolution};
 use crate::light::Light;
@@ -42,6 +42,7 @@ pub struct ScenePools<
     materials: Vec<Material<T>, MATERIALS>,
     lights: Vec<Light<T>, LIGHTS>,
     sides: Vec<[Reach; 2], SIDES>,
+    zones: Vec<Zones<T>, PLANES>,
     nodes: Vec<TreeNode<T>, TREE>,
     entries: Vec<TreeEntry, TREE>,
 }
@@ -177,6 +178,7 @@ impl<
             materials: Vec::new(),
             lights: Vec::new(),
             sides: Vec::new(),
+            zones: Vec::new(),
             nodes: Vec::new(),
             entries: Vec::new(),
         }
@@ -195,6 +197,7 @@ impl<
             triangles: &self.triangles,
             materials: &self.materials,
             sides: self.sides.as_flattened(),
+            zones: &self.zones,
             tree: Tree {
                 nodes: &self.nodes,
                 entries: &self.entries,
@@ -212,6 +215,7 @@ impl<
             materials: &mut self.materials,
             lights: &mut self.lights,
             sides: &mut self.sides,
+            zones: &mut self.zones,
             nodes: &mut self.nodes,
             entries: &mut self.entries,
         }
@@ -264,6 +268,7 @@ pub struct PoolsMut<'p, T> {
     materials: &'p mut VecView<Material<T>>,
     lights: &'p mut VecView<Light<T>>,
     sides: &'p mut VecView<[Reach; 2]>,
+    zones: &'p mut VecView<Zones<T>>,
     nodes: &'p mut VecView<TreeNode<T>>,
     entries: &'p mut VecView<TreeEntry>,
 }
@@ -283,6 +288,7 @@ impl<T: Scalar> PoolsMut<'_, T> {
     /// Removes what is only true of the objects and lights so far.
     fn forget_visibility(&mut self) {
         self.sides.clear();
+        self.zones.clear();
         self.nodes.clear();
         self.entries.clear();
     }
@@ -403,10 +409,12 @@ impl<T: Scalar> PoolsMut<'_, T> {
             triangles: self.triangles,
             materials: self.materials,
             sides: &[],
+            zones: &[],
             tree: Tree::NONE,
         };
         let visibility = Visibility {
             sides: self.sides,
+            zones: self.zones,
             nodes: self.nodes,
             entries: self.entries,
         };
@@ -423,6 +431,19 @@ impl<T: Scalar> PoolsMut<'_, T> {
         for object in scene.objects() {
             // There is room for all.
             let _ = room.sides.push(sides(&scene, object));
+        }
+    }
+
+    /// Fills in the zones of all planes, if the sides are known.
+    pub(crate) fn fill_zones(&mut self, zones: fn(&Scene<'_, T>, &Plane<T>) -> Zones<T>) {
+        let (scene, room) = self.as_scene_and_visibility();
+        room.zones.clear();
+        if room.sides.is_empty() {
+            return;
+        }
+        for plane in scene.planes {
+            // There is room for all.
+            let _ = room.zones.push(zones(&scene, plane));
         }
     }
 
@@ -477,6 +498,7 @@ impl<T: Scalar> PoolsMut<'_, T> {
 /// Room for what is found out about a scene.
 struct Visibility<'p, T> {
     sides: &'p mut VecView<[Reach; 2]>,
+    zones: &'p mut VecView<Zones<T>>,
     nodes: &'p mut VecView<TreeNode<T>>,
     entries: &'p mut VecView<TreeEntry>,
 }

@@ -16,7 +16,7 @@ use crate::color::Color;
 use crate::material::{Interface, Material};
 use crate::ray::{ObjectNumber, Ray, Side};
 use crate::scalar::Scalar;
-use crate::scene::{Members, Needs, Object, ObjectSet, Reach, Scene};
+use crate::scene::{Members, Needs, Object, ObjectSet, Reach, Scene, Zone};
 use crate::shape::{Barycentric, Plane, Sphere, Surface, Triangle};
 use crate::vec3::Vec3;
 use crate::visibility::visible_in_row;
@@ -110,6 +110,8 @@ pub(crate) struct Hit<'a, T> {
     facing: Side,
     /// The side beyond.
     beyond: Side,
+    /// The place, if it lies on a plane in a part that is divided.
+    zone: Option<Zone<'a>>,
     material: &'a Material<T>,
     /// Unit normal on the side the ray comes from.
     normal: Vec3<T>,
@@ -436,6 +438,13 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         )
     }
 
+    /// Where a place on a plane lies.
+    #[inline(always)]
+    fn zone(&self, index: usize, place: Vec3<T>) -> Option<Zone<'a>> {
+        let index = index.wrapping_sub(self.scene.spheres.len());
+        self.scene.zones.get(index)?.zone(place)
+    }
+
     /// What rays can meet that leave a side of an object.
     #[inline(always)]
     fn reach(&self, side: Side) -> &'a Reach {
@@ -516,6 +525,11 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                                     throughput = throughput * weight;
                                 }
                                 candidates = self.reach(ray.leaves).near(ray.direction);
+                                if stage(NEEDS, Needs::PLANES)
+                                    && let Some(zone) = hit.zone
+                                {
+                                    candidates = candidates.intersection(zone.ahead(ray.direction));
+                                }
                                 continue;
                             }
                         }
@@ -559,10 +573,13 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         observer: &mut impl Observer<T>,
     ) -> Option<Hit<'a, T>> {
         let closest = self.closest(ray, candidates, observer);
+        let mut zone = None;
         let (point, surface) = if let Some(sphere) = self.sphere(closest.index) {
             (sphere.surface_point(ray, closest.t), sphere.surface())
         } else if let Some(plane) = self.plane(closest.index) {
-            (plane.surface_point(ray, closest.t), plane.surface())
+            let point = plane.surface_point(ray, closest.t);
+            zone = self.zone(closest.index, point.point);
+            (point, plane.surface())
         } else {
             let triangle = self.triangle(closest.index)?;
             (triangle.surface_point(closest.place), triangle.surface())
@@ -578,6 +595,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         let hit = Hit {
             facing: Side::new(surface.number, entering),
             beyond: Side::new(surface.number, !entering),
+            zone,
             material: self.material(surface)?,
             normal,
             cosine: slope.abs(),
@@ -770,7 +788,7 @@ specialize!(f64);
 ///     resolution: Resolution { width: 4, height: 3 },
 ///     ambient: 0.1,
 ///     background: Background { color: Color::new(0.5, 0.5, 1.0), sky: true },
-///     lights: &[], spheres: &[], planes: &[], triangles: &[], materials: &[], sides: &[], tree: Tree::NONE,
+///     lights: &[], spheres: &[], planes: &[], triangles: &[], materials: &[], sides: &[], zones: &[], tree: Tree::NONE,
 /// };
 /// let tracer = tracer_for!(EMPTY);
 /// assert_eq!(tracer.stages(), Needs::SKY);
@@ -791,7 +809,7 @@ specialize!(f64);
 /// #     resolution: Resolution { width: 4, height: 3 },
 /// #     ambient: 0.1,
 /// #     background: Background { color: Color::new(0.5, 0.5, 1.0), sky: true },
-/// #     lights: &[], spheres: &[], planes: &[], triangles: &[], materials: &[], sides: &[], tree: Tree::NONE,
+/// #     lights: &[], spheres: &[], planes: &[], triangles: &[], materials: &[], sides: &[], zones: &[], tree: Tree::NONE,
 /// # };
 /// let tracer = tracer_for!(EMPTY, stages = Needs::SPHERES);
 /// ```

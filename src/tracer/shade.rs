@@ -28,6 +28,10 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             observer.light(LightAtHit::Enclosed);
             return color;
         }
+        let occluders = match hit.zone {
+            Some(zone) => reach.occluders.intersection(zone.occluders()),
+            None => reach.occluders,
+        };
         for light in self.scene.lights {
             let to_light = light.position - hit.outside;
             // The sign of N·L, before its length is known: a light behind the surface costs no root.
@@ -49,7 +53,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                     leaves: hit.facing,
                 };
                 observer.ray(RayKind::Shadow, depth, &shadow);
-                if self.occluded_observed(&shadow, distance, reach.occluders, observer) {
+                if self.occluded_observed(&shadow, distance, occluders, observer) {
                     observer.light(LightAtHit::Blocked);
                     continue;
                 }

@@ -17,6 +17,7 @@
 mod row;
 mod side;
 mod tree;
+mod zones;
 
 pub(crate) use row::visible_in_row;
 pub(crate) use tree::Walk;
@@ -120,6 +121,7 @@ impl<
     pub fn prepare(&mut self) {
         let mut pools = self.as_mut();
         pools.find_sides();
+        pools.find_zones();
         // Not compiled for pools without room.
         if const { TREE > 0 } {
             pools.build_tree();

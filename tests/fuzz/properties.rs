@@ -70,6 +70,7 @@ fn draw_with<T: Scalar + FromDecimal>(text: &[u8]) {
     let scene = pools.as_scene();
     let every_object = Scene {
         sides: &[],
+        zones: &[],
         ..scene
     };
     let tracer = Tracer::new(scene).with_resolution(SIZE);

@@ -246,6 +246,7 @@ fn draws_objects_without_material_and_with_any_numbers() {
         triangles: &[],
         materials: &materials,
         sides: &[],
+        zones: &[],
         tree: Tree::NONE,
     };
     assert_same("without material", scene, 33, 21, 5);

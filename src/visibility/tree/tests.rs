@@ -39,6 +39,7 @@ fn scene(spheres: &[Sphere<f32>]) -> Scene<'_> {
         triangles: &[],
         materials: &[],
         sides: &[],
+        zones: &[],
         tree: Tree::NONE,
     }
 }
