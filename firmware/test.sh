@@ -57,6 +57,7 @@ need python3 python3
 need qemu-system-arm qemu-system-arm
 need qemu-system-riscv32 qemu-system-misc
 need arm-none-eabi-objdump binutils-arm-none-eabi
+need riscv64-unknown-elf-objdump binutils-riscv64-unknown-elf
 
 toolchain=${SCANRAY_TOOLCHAIN:-}
 if [ -z "$toolchain" ]; then

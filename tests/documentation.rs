@@ -1,4 +1,4 @@
-//! The picture at the head of the crate's documentation is the golden picture of the default scene.
+//! What the documentation shows is what there is: the golden picture of the default scene, code of an example.
 
 mod common;
 
@@ -20,6 +20,19 @@ fn shows_the_golden_picture() {
     assert!(
         std::fs::read_to_string(path(FILE)).is_ok_and(|text| text == expected),
         "{FILE} does not hold tests/golden/default.png: BLESS=1 cargo test --test documentation"
+    );
+}
+
+#[test]
+fn the_readme_quotes_an_example_of_the_firmware() {
+    let read = |file| std::fs::read_to_string(path(file)).unwrap();
+    let (readme, example) = (read("README.md"), read("firmware/examples/oled.rs"));
+    let (_, quoted) = readme.split_once("```rust,ignore\n").unwrap();
+    let (quoted, _) = quoted.split_once("```").unwrap();
+    assert!(quoted.contains("tracer_for!"), "{quoted}");
+    assert!(
+        example.contains(quoted),
+        "firmware/examples/oled.rs has not:\n{quoted}"
     );
 }
 

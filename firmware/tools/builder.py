@@ -43,9 +43,11 @@ class Builder:
         return done.stdout
 
     def image(self, board, program, name, profile="size", proven=True, example=False, flags=(), **variables):
-        """The path of a program's image. `flags` are the compiler's, added to those of .cargo/config.toml."""
+        """The path of a program's image, with line tables for the profiler, which change no code. `flags` are the
+        compiler's, added to those of .cargo/config.toml."""
         target = BOARDS[board][0]
         features = board + (",prove-no-panic" if proven else "")
+        variables[f"CARGO_PROFILE_{profile.upper()}_DEBUG"] = "line-tables-only"
         flags = ", ".join(f"'{flag}'" for flag in ("-Zemit-stack-sizes", "-Clink-arg=-Tstack_sizes.x", *flags))
         arguments = ["build", "--profile", profile, "--target", target, "--no-default-features", "--features", features,
                      "--example" if example else "--bin", program, "--config", f"target.{target}.rustflags=[{flags}]"]
@@ -68,10 +70,23 @@ class Builder:
 
     def unit_tests(self):
         with self.lock:
-            self.cargo(["test", "--package", "board", "--package", "displays", "--target", self.host()])
+            self.cargo(["test", "--lib", "--tests", "--package", "board", "--package", "displays", "--target", self.host()])
+
+    def missing_stage(self, board):
+        """What the compiler says of a tracer without a stage that its scene needs."""
+        with self.lock:
+            try:
+                self.cargo(["check", "--target", BOARDS[board][0], "--no-default-features", "--features",
+                            board + ",must-not-compile", "--bin", "missing_stage",
+                            *(["-Zbuild-std=core"] if BUILD_STD else [])])
+            except Failed as why:
+                return str(why)
+        raise Failed("a tracer without a stage that its scene needs compiles")
 
     def lint(self, board):
         """Clippy over everything that compiles for a board."""
+        if BUILD_STD:
+            return "skipped, clippy needs the compiled core library of rustup"
         with self.lock:
             try:
                 self.cargo(["clippy", "--version"])

@@ -21,8 +21,10 @@ import time
 import elf
 import emulate
 import oled
+import profiler
 import stack_bound
 from builder import BOARDS, FIRMWARE, Builder, Failed, compiler
+from tables import README_ROWS, compare, compare_readme, readme_table, table
 
 TIMEOUT = 120
 
@@ -91,7 +93,6 @@ class Measured:
     """An image's figures."""
 
     def __init__(self, board, image, printed):
-        is_arm = board != "virt"
         got = values(printed)
         if not {"crc32", "ticks", "stack"} <= got.keys():
             raise Failed(f"the board printed: {printed}")
@@ -99,19 +100,19 @@ class Measured:
         self.crc = got["crc32"]
         self.flash, self.ram = binary.flash(), binary.static_ram()
         self.painted = int(got["stack"], 16)
-        self.bound = stack_bound.bound(image, "Reset")[0] if is_arm else None
+        self.bound = stack_bound.bound(image)[0]
         self.instructions = int(got["ticks"], 16) * BOARDS[board][2] / PIXELS
-        if is_arm and self.painted > self.bound:
+        if self.painted > self.bound:
             raise Failed(f"{self.painted} bytes of stack were used, the bound says {self.bound}")
         if elements := forbidden(image):
             raise Failed("the image contains " + ", ".join(element.strip() for element in elements))
 
     def __str__(self):
-        stack = f"{self.bound} B stack ({self.painted} B used)" if self.bound else f"{self.painted} B stack used"
-        return f"{self.instructions:,.0f} instructions a pixel, {self.flash:,} B flash, {self.ram} B RAM, {stack}"
+        return (f"{self.instructions:,.0f} instructions a pixel, {self.flash:,} B flash, {self.ram} B RAM, "
+                f"{self.bound} B stack ({self.painted} B used)")
 
     def cells(self):
-        return [str(self.flash), str(self.ram), str(self.bound or "–"), str(self.painted), f"{self.instructions:.1f}"]
+        return [str(self.flash), str(self.ram), str(self.bound), str(self.painted), f"{self.instructions:.1f}"]
 
 
 class Board:
@@ -121,6 +122,7 @@ class Board:
         self.name, self.builder, self.report, self.expected = name, builder, report, expected
         self.crcs = {}      # scene -> CRC
         self.measured = {}  # (row of the cost table, profile) -> Measured
+        self.cycles = {}    # (row, profile, core that the compiler was told) -> (instructions, cycles), M4F only
 
     def check(self):
         check, column = self.report.check, BOARDS[self.name][1]
@@ -128,11 +130,14 @@ class Board:
             check(f"{column} clippy", lambda: self.builder.lint(self.name))
         check(f"{column} counter", self.calibration)
         check(f"{column} a reachable panic does not link", self.panic_control)
-        check(f"{column} recursion and double precision are found", self.other_controls)
+        check(f"{column} what is forbidden is found", self.other_controls)
         for scene, path in scenes().items():
             for profile in BOARDS[self.name][3]:
                 check(f"{column} {scene} ({profile})", lambda: self.picture(scene, path, scene, profile))
         if self.name == "mps2-an386":
+            check(f"{column} a stage that is left out is named by the compiler", self.missing_stage)
+            for profile in BOARDS[self.name][3]:
+                check(f"{column} default for a core without a name ({profile})", lambda: self.unnamed_core(profile))
             for stage in STAGES:
                 row = f"default without {stage.lower()}"
                 check(f"{column} {row}", lambda: self.picture("default", "../scenes/default.txt", row, "size", stage))
@@ -164,30 +169,53 @@ class Board:
 
     def other_controls(self):
         image = self.builder.image(self.name, "negative_control", "negative-control", proven=False)
-        if self.name != "virt":
-            try:
-                stack_bound.bound(image, "Reset")
-                raise Failed("recursion has a bound")
-            except stack_bound.Unknown as why:
-                if "recursion" not in str(why):
-                    raise
+        try:
+            stack_bound.bound(image)
+            raise Failed("recursion has a bound")
+        except stack_bound.Unknown as why:
+            if "recursion" not in str(why):
+                raise
         # A compiler without hardware for it calls a function, one with hardware is told by the instruction.
         found = " ".join(forbidden(image))
         if not re.search("__aeabi_dmul|__muldf3", found):
             raise Failed(f"no double precision among: {found}")
-        if self.name == "mps2-an386" and "vfma" not in found:
-            raise Failed(f"no fused multiplication among: {found}")
+        if self.name == "mps2-an386":
+            if "vfma" not in found:
+                raise Failed(f"no fused multiplication among: {found}")
+            code, printed = emulate.run(image, TIMEOUT)
+            if code == 0 or "not in IEEE mode" not in printed:
+                raise Failed(f"with numbers flushed to zero it ends with {code}; the board printed: {printed}")
+
+    def missing_stage(self):
+        said = self.builder.missing_stage(self.name)
+        if "the scene needs the stage `refraction`" not in said:
+            raise Failed(f"the compiler says: {said}")
+        return "refraction"
 
     def picture(self, scene, path, row, profile, without="NONE"):
         image = self.builder.image(self.name, "picture", f"{row}-{profile}".replace(" ", "-"), profile,
                                    SCANRAY_SCENE=path, SCANRAY_WITHOUT=without)
         measured = Measured(self.name, image, run(image))
         self.measured[row, profile] = measured
+        if self.name == "mps2-an386":
+            self.cycles[row, profile, "cortex-m4"] = instructions, _ = profiler.cost(image)
+            if abs(instructions - measured.instructions) > 1:
+                raise Failed(f"the profiler counts {instructions:.1f} instructions a pixel, the board {measured.instructions:.1f}")
         if without == "NONE":
             self.crcs[scene] = measured.crc
             if measured.crc != self.expected.get(scene):
                 raise Failed(f"CRC-32 {measured.crc}, the host's is {self.expected.get(scene)}")
         return f"{measured.crc}, {measured}"
+
+    def unnamed_core(self, profile):
+        """The same picture by code with multiply-accumulate, which LLVM makes unless it is told the core."""
+        image = self.builder.image(self.name, "picture", f"default-{profile}-generic", profile,
+                                   flags=("-Ctarget-cpu=generic",), SCANRAY_SCENE="../scenes/default.txt")
+        crc = values(run(image))["crc32"]
+        if crc != self.expected["default"]:
+            raise Failed(f"CRC-32 {crc}, the host's is {self.expected['default']}")
+        self.cycles["default", profile, "generic"] = instructions, cycles = profiler.cost(image)
+        return f"{crc}, {instructions:,.0f} instructions and about {cycles:,.0f} cycles a pixel"
 
     def harness(self):
         image = self.builder.image(self.name, "harness", "harness")
@@ -279,34 +307,13 @@ def oled_check(builder, reference, scene, path, png):
     return f"all {len(panel)} pixels as the host's, {len(set(panel))} greys"
 
 
-def table(header, rows):
-    """A text table, its columns aligned; the first column is text."""
-    cells = [header, *rows]
-    widths = [max(len(row[i]) for row in cells) for i in range(len(header))]
-    lines = ["  ".join(cell.ljust(width) if i == 0 else cell.rjust(width)
-                       for i, (cell, width) in enumerate(zip(row, widths))).rstrip() for row in cells]
-    return "\n".join(lines) + "\n"
-
-
-def compare(name, text, bless):
-    """Compares with a table that is checked in, or writes it."""
-    path = os.path.join(FIRMWARE, "tables", name)
-    if bless:
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
-        return "written"
-    try:
-        with open(path, encoding="utf-8") as file:
-            known = file.read()
-    except FileNotFoundError:
-        if name.startswith("cost-"):
-            return f"none yet for this compiler ({name}); --bless writes it"
-        raise
-    if known != text:
-        old, new = known.splitlines(), text.splitlines()
-        lines = [f"  - {line}" for line in old if line not in new] + [f"  + {line}" for line in new if line not in old]
-        raise Failed(f"differs from tables/{name} (--bless accepts it):\n" + "\n".join(lines))
-    return "as checked in"
+def readme_check(boards, bless):
+    measured = {(row, BOARDS[board.name][1]): board.measured.get((row, "size")) for board in boards for row in README_ROWS}
+    if None in measured.values() or not README_ROWS.keys() <= {row for row, *_ in boards[0].cycles}:
+        raise Failed("not all figures were measured")
+    cycles = {row: cycles for (row, profile, core), (_, cycles) in boards[0].cycles.items()
+              if (profile, core) == ("size", "cortex-m4")}
+    return compare_readme(readme_table(measured, cycles), bless)
 
 
 def limit_check(board, row, figure):
@@ -332,7 +339,9 @@ def main():
     finally:
         if not arguments.keep:
             shutil.rmtree(images)
-    print(f"firmware checks took {time.monotonic() - start:.0f} s with {compiler()}")
+    times = os.times()
+    print(f"firmware checks took {time.monotonic() - start:.0f} s, {times.children_user + times.children_system:.0f} s of them "
+          f"CPU time, with {compiler()}")
     print(f"{report.passed} passed, {report.failed} failed")
     sys.exit(report.failed != 0)
 
@@ -351,8 +360,8 @@ def check_all(builder, report, bless):
     expected["rejected"] = host("rejected")
 
     boards = [Board(name, builder, report, expected) for name, (_, _, rate, _) in BOARDS.items() if rate]
-    with concurrent.futures.ThreadPoolExecutor(max_workers=2) as workers:
-        # The slowest boards first.
+    # More than there are cores, as one at most builds; the slowest boards first.
+    with concurrent.futures.ThreadPoolExecutor(max_workers=(os.cpu_count() or 1) + 2) as workers:
         work = [workers.submit(board.check) for board in reversed(boards)]
         work.append(workers.submit(oled_checks, builder, report, reference, bless))
         work.append(workers.submit(example_checks, builder, report, expected))
@@ -372,6 +381,12 @@ def check_all(builder, report, bless):
     cost = table(["scene", "profile", "board", "flash", "RAM", "stack bound", "stack used", "instructions/pixel"], rows)
     print(cost, end="")
     report.check("costs", lambda: compare(f"cost-{compiler()}.txt", cost, bless))
+    cycles = table(["scene", "profile", "target-cpu", "instructions/pixel", "cycles/pixel"],
+                   [[*row, f"{instructions:.1f}", f"{cycles:.0f}"] for row, (instructions, cycles) in
+                    sorted(boards[0].cycles.items(), key=lambda item: item[0][1:])])
+    print(cycles, end="")
+    report.check("cycles", lambda: compare(f"cycles-{compiler()}.txt", cycles, bless))
+    report.check("README", lambda: readme_check(boards, bless))
     for row, figure in LIMITS:
         report.check(f"M4F {row} {figure}", lambda: limit_check(boards[0], row, figure))
 

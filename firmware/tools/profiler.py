@@ -209,6 +209,14 @@ def profile(image):
     return printed, instructions, bool(toggles)
 
 
+def cost(image):
+    """(instructions, cycles) a pixel of an image with line tables."""
+    _, instructions, is_bounded = profile(image)
+    if not is_bounded:
+        raise Failed("no reading of the counter was recognised")
+    return (sum(i.executed for i in instructions.values()) / PIXELS, sum(i.cycles() for i in instructions.values()) / PIXELS)
+
+
 def by_source(instructions):
     """(file, function) -> own costs, and with all it calls."""
     calls = calls_of(instructions)
@@ -252,7 +260,7 @@ def main():
         try:
             image = arguments.image or Builder(folder).image(
                 arguments.board, "picture", "profiled", arguments.profile, flags=arguments.flags,
-                SCANRAY_SCENE=arguments.scene, **{f"CARGO_PROFILE_{arguments.profile.upper()}_DEBUG": "line-tables-only"})
+                SCANRAY_SCENE=arguments.scene)
             printed, instructions, is_bounded = profile(image)
         except (Failed, OSError, subprocess.CalledProcessError) as why:
             sys.exit(str(why))

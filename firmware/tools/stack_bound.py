@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Proves how deep an Arm image's stack can get, from its disassembly.
+"""Proves how deep an image's stack can get, from its disassembly.
 
     stack_bound.py IMAGE [--root Reset]
 
@@ -14,11 +14,11 @@ import subprocess
 import sys
 
 import elf
+import stack_arm
+import stack_riscv
 
-CONDITIONS = "eq|ne|cs|hs|cc|lo|mi|pl|vs|vc|hi|ls|ge|lt|gt|le"
-LINE = re.compile(r"^\s*([0-9a-f]+):\t([a-z][^\t;@]*)(?:\t([^;@]*))?")
+LINE = re.compile(r"^\s*([0-9a-f]+):\t([a-z.][^\t;@]*)(?:\t([^;@]*))?")
 LABEL = re.compile(r"^([0-9a-f]+) <(.+)>:$")
-TARGET = re.compile(r"\b([0-9a-f]+) <[^>]*>\s*$")
 CONVERGED_BY = 1 << 20
 
 
@@ -35,23 +35,26 @@ class Function:
         self.depth = 0          # the deepest the function itself gets
 
 
-def disassemble(path, image):
+def disassemble(path, image, core):
     """Functions by address."""
-    ends = {address & ~1: (address & ~1) + size for address, size, is_function in image.symbols.values()
-            if is_function and size}
-    text = subprocess.run(["arm-none-eabi-objdump", "-d", "--no-show-raw-insn", path],
+    symbols = {address & ~1: (name, size) for name, (address, size, is_function) in image.symbols.items() if is_function}
+    text = subprocess.run([core.OBJDUMP, "-d", "--no-show-raw-insn", path],
                           check=True, capture_output=True, text=True).stdout
     functions, current, end = {}, None, None
     for line in text.splitlines():
         if label := LABEL.match(line):
-            current = functions[int(label[1], 16)] = Function(label[2], int(label[1], 16))
-            end = ends.get(current.address)
-        elif end and (address := re.match(r"^\s*([0-9a-f]+):", line)) and int(address[1], 16) >= end:
+            address = int(label[1], 16)
+            # Labels inside a function are no functions.
+            if current is None or address in symbols or end is None or address >= end:
+                current = functions[address] = Function(label[2], address)
+                size = symbols.get(address, ("", 0))[1]
+                end = address + size if size else None
+        elif current and end and (address := re.match(r"^\s*([0-9a-f]+):", line)) and int(address[1], 16) >= end:
             pass  # The linker's padding reads as branches.
-        elif instruction := LINE.match(line):
-            current.instructions[int(instruction[1], 16)] = (instruction[2].strip(), (instruction[3] or "").strip())
         elif word := re.match(r"^\s*[0-9a-f]+:\t\.word\t0x([0-9a-f]+)", line):
             current.words.append(int(word[1], 16))
+        elif instruction := LINE.match(line):
+            current.instructions[int(instruction[1], 16)] = (instruction[2].strip(), (instruction[3] or "").strip())
     return functions
 
 
@@ -71,66 +74,7 @@ def emitted_sizes(image):
     return sizes
 
 
-def registers(listed):
-    """How many registers `{r4-r7, lr}` names, and bytes in each."""
-    names = [part.strip() for part in listed.strip("{} ").split(",")]
-    count = 0
-    for name in names:
-        first, _, last = name.partition("-")
-        count += int(last[1:]) - int(first[1:]) + 1 if last else 1
-    return count, 8 if names[0].startswith("d") else 4
-
-
-def growth(mnemonic, operands):
-    """Bytes the instruction adds to the stack; None when it moves the stack pointer in a way that is not followed."""
-    name = mnemonic.split(".")[0]
-    if name in ("push", "vpush", "pop", "vpop"):
-        count, each = registers(operands)
-        return count * each if "push" in name else -count * each
-    if operands.startswith("sp!"):
-        count, each = registers(operands.split(",", 1)[1])
-        return {"stmdb": 1, "vstmdb": 1, "ldmia": -1, "vldmia": -1, "ldm": -1}[name] * count * each
-    if written := re.search(r"\[sp, #(-?\d+)\]!", operands):
-        return -int(written[1])
-    if written := re.search(r"\[sp\], #(-?\d+)", operands):
-        return -int(written[1])
-    if re.match(r"sp\b", operands) and name in ("add", "addw", "sub", "subw", "mov", "bic", "bfc", "and", "ldr", "movs"):
-        constant = re.fullmatch(r"sp,(?: sp,)? #(\d+)", operands)
-        if constant and name in ("add", "addw"):
-            return -int(constant[1])
-        if constant and name in ("sub", "subw"):
-            return int(constant[1])
-        # An epilogue that takes the stack pointer back from the frame pointer only shrinks the stack.
-        if name == "mov" and operands == "sp, r7" or name in ("sub", "subw") and re.fullmatch(r"sp, r7, #\d+", operands):
-            return 0
-        return None
-    return 0
-
-
-def table_targets(image, function, order, address, name):
-    """Where a jump through a table may go. Reading a literal behind the table as an entry only adds paths."""
-    before = [a for a in order if a < address][-12:]
-    names = [function.instructions[a][0].split(".")[0] for a in before[-4:]]
-    if name in ("tbb", "tbh"):
-        width, table = 1 if name == "tbb" else 2, address + 4
-    elif name == "add" and ("ldrb" in names or "ldrh" in names):
-        width, table = 1 if "ldrb" in names else 2, address + 2
-        # The table's address, if it is not behind the jump.
-        for a in before:
-            if relative := re.fullmatch(r"r\d, pc, #(\d+)", function.instructions[a][1]):
-                table = (a & ~3) + 4 + int(relative[1])
-    else:
-        return {word & ~1 for word in function.words if word & ~1 in function.instructions}
-    text, targets = image.section(".text"), set()
-    for entry in range(table - text.address, len(text.data), width):
-        target = address + 4 + 2 * int.from_bytes(text.data[entry:entry + width], "little")
-        if target not in function.instructions:
-            break
-        targets.add(target)
-    return targets
-
-
-def walk(image, functions, function, emitted):
+def walk(image, functions, function, emitted, core):
     """Fills in the function's depth and calls."""
     order = sorted(function.instructions)
     following = dict(zip(order, order[1:]))
@@ -143,6 +87,12 @@ def walk(image, functions, function, emitted):
             raise Unknown(f"{function.name} calls {target:#x} at {where:#x}, which is no function")
         function.calls[target] = max(function.calls.get(target, 0), depth)
 
+    def flow(address):
+        found = core.flow(image, function, order, address)
+        if found is None:
+            raise Unknown(f"{function.name} goes through a pointer at {address:#x}")
+        return found
+
     while waiting:
         address, depth = waiting.pop()
         if address not in function.instructions:
@@ -154,84 +104,52 @@ def walk(image, functions, function, emitted):
             continue
         depth_at[address] = depth
         mnemonic, operands = function.instructions[address]
-        change = growth(mnemonic, operands)
         # Padding between a call that never returns and literals.
         if mnemonic.startswith("nop") and address not in following:
             continue
+        change = core.growth(mnemonic, operands)
         if change is None or depth > CONVERGED_BY:
             fixed = emitted.get(function.address)
             if fixed is None:
                 raise Unknown(f"{function.name}: `{mnemonic} {operands}` at {address:#x} moves the stack pointer unread")
             break
-        depth = max(0, depth + change)
+        before, depth = depth, max(0, depth + change)
         function.depth = max(function.depth, depth)
 
-        # Where control goes from here.
-        name = mnemonic.split(".")[0]
-        target = TARGET.search(operands)
-        target = int(target[1], 16) if target else None
+        how, targets = flow(address)
         follow = following.get(address, after_last)
-        inside = target in function.instructions and target != function.address
-        if name in ("bl", "blx") and target is None:
-            raise Unknown(f"{function.name} calls through a pointer at {address:#x}")
-        if name in ("tbb", "tbh") or name in ("mov", "add", "ldr") and operands.startswith("pc,"):
-            targets = table_targets(image, function, order, address, name)
-            if not targets:
-                raise Unknown(f"{function.name} jumps through a pointer at {address:#x}")
-            waiting += [(target, depth) for target in targets]
-        elif name in ("bl", "blx"):
-            if inside:  # a far jump
-                waiting.append((target, depth))
-            else:
+        if how == "call":
+            for target in targets:
                 call(target, depth, address)
-                # A call that ends its function never returns.
-                if follow in function.instructions:
-                    waiting.append((follow, depth))
-        elif name == "b":
-            waiting.append((target, depth)) if inside else call(target, depth, address)
-        elif name in ("cbz", "cbnz") or re.fullmatch(f"b(?:{CONDITIONS})", name):
-            waiting.append((target, depth)) if inside else call(target, depth, address)
-            waiting.append((follow, depth))
-        elif name in ("bx",) or re.fullmatch(f"bx(?:{CONDITIONS})", name):
-            if operands != "lr" and not returns_by(function, order, address, operands):
-                raise Unknown(f"{function.name} jumps through a pointer at {address:#x}")
-            if name != "bx":
+            # A call that ends its function never returns.
+            if follow in function.instructions:
                 waiting.append((follow, depth))
-        elif name == "udf" or re.search(r"\bpc\b", operands) and name in ("pop", "ldmia", "ldm"):
-            pass
-        elif re.fullmatch(f"(?:pop|ldmia|ldm)(?:{CONDITIONS})", name):
-            waiting.append((follow, depth - change))
-        else:
+            continue
+        for target in targets:
+            waiting.append((target, depth)) if target in function.instructions else call(target, depth, address)
+        if how in ("next", "branch"):
             waiting.append((follow, depth))
+        elif how == "maybe return":
+            waiting.append((follow, before))
 
     if fixed is not None:
         # The compiler's figure holds everywhere in the function.
         function.depth = fixed
-        for address, (mnemonic, operands) in function.instructions.items():
-            name, target = mnemonic.split(".")[0], TARGET.search(operands)
-            if name in ("bl", "blx", "b") or re.fullmatch(f"b(?:{CONDITIONS})", name):
-                if target is None:
-                    raise Unknown(f"{function.name} calls through a pointer at {address:#x}")
-                if int(target[1], 16) not in function.instructions:
-                    call(int(target[1], 16), fixed, address)
-            elif name == "bx" and operands != "lr" and not returns_by(function, order, address, operands):
-                raise Unknown(f"{function.name} jumps through a pointer at {address:#x}")
+        for address in order:
+            how, targets = flow(address)
+            for target in targets:
+                if how == "call" or target not in function.instructions:
+                    call(target, fixed, address)
     elif emitted.get(function.address, function.depth) != function.depth:
         raise Unknown(f"{function.name}: read {function.depth} bytes, the compiler says {emitted[function.address]}")
 
 
-def returns_by(function, order, address, register):
-    """Thumb-1 returns by `pop {rN}; bx rN`."""
-    before = [a for a in order if a < address][-4:]
-    return any(function.instructions[a][0] == "pop" and function.instructions[a][1].strip("{}") == register
-               for a in before)
-
-
-def bound(image_path, root):
+def bound(image_path, root=None):
     """(bytes, [(function, its own bytes)] of the deepest path)."""
     image = elf.Image(image_path)
-    functions, emitted = disassemble(image_path, image), emitted_sizes(image)
-    entry = image.symbols[root][0] & ~1
+    core = stack_arm if image.is_arm else stack_riscv
+    functions, emitted = disassemble(image_path, image, core), emitted_sizes(image)
+    entry = image.symbols[root or core.ROOT][0] & ~1
     known, active = {}, []
 
     def deepest(address):
@@ -241,7 +159,7 @@ def bound(image_path, root):
         if address in active:
             raise Unknown("recursion: " + " → ".join(functions[a].name for a in active[active.index(address):] + [address]))
         active.append(address)
-        walk(image, functions, function, emitted)
+        walk(image, functions, function, emitted, core)
         best = (function.depth, [(function.name, function.depth)])
         for callee, depth in function.calls.items():
             below, path = deepest(callee)
@@ -257,7 +175,7 @@ def bound(image_path, root):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("image")
-    parser.add_argument("--root", default="Reset")
+    parser.add_argument("--root", help="the function that the stack begins with, if not the reset's")
     arguments = parser.parse_args()
     try:
         total, path = bound(arguments.image, arguments.root)

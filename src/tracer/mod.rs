@@ -837,7 +837,8 @@ macro_rules! tracer_for {
     };
     ($scene:path, stages = $stages:expr, stack = $stack:expr) => {{
         const STAGES: $crate::Needs = $stages;
-        const { $scene.needs().require(STAGES) };
+        // An item, so that `cargo check` looks at it too.
+        const _: () = $scene.needs().require(STAGES);
         $crate::Tracer::<'static, _, { STAGES.bits() }, { $stack }>::with_stages($scene)
     }};
 }

@@ -36,9 +36,9 @@ pub use on_a_board::*;
 #[cfg(target_os = "none")]
 mod on_a_board {
     #[cfg(any(feature = "mps2", feature = "microbit", feature = "lm3s6965evb"))]
-    pub use crate::arm::sleep;
+    pub use crate::arm::{check_floating_point, sleep};
     #[cfg(any(feature = "mps2", feature = "microbit", feature = "lm3s6965evb"))]
-    pub(crate) use crate::arm::{check_floating_point, exit_code, write_byte};
+    pub(crate) use crate::arm::{exit_code, write_byte};
     pub use crate::selected::*;
 
     /// Ends the emulation: `Ok` is success, `Err` says why not.

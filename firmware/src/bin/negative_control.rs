@@ -1,5 +1,5 @@
-//! Does everything that the checks forbid, so that each is seen to fail: a reachable panic, recursion, double precision
-//! and a fused multiply-add.
+//! Does everything that the checks forbid, so that each is seen to fail: a reachable panic, recursion, double precision,
+//! a fused multiply-add, subnormal numbers flushed to zero.
 
 #![no_std]
 #![no_main]
@@ -49,9 +49,27 @@ fn fused(value: f32) -> f32 {
     value
 }
 
+#[cfg(target_abi = "eabihf")]
+fn flush_to_zero() {
+    // SAFETY: changes the floating-point state of a program that is about to end.
+    unsafe {
+        core::arch::asm!(
+            "vmrs {0}, fpscr",
+            "orr {0}, {0}, #1 << 24",
+            "vmsr fpscr, {0}",
+            out(reg) _,
+        );
+    }
+}
+
+#[cfg(not(target_abi = "eabihf"))]
+fn flush_to_zero() {}
+
 fn program() -> Result<(), &'static str> {
     let index = recursion(board::ticks() & 1);
     console::decimal("entry ", TABLE[double_precision(index) as usize]);
     console::decimal("sum ", fused(1.0) as u32);
+    flush_to_zero();
+    board::check_floating_point();
     Ok(())
 }

@@ -1,0 +1,76 @@
+"""Figures as text: the files of tables/, and the table of the README."""
+
+import os
+
+from builder import BUILD_STD, FIRMWARE, Failed, compiler
+
+README = os.path.join(os.path.dirname(FIRMWARE), "README.md")
+BEGIN = "<!-- Written by firmware/test.sh --bless. -->\n"
+END = "<!-- Until here. -->\n"
+
+# Rows of the cost table -> what the README calls them.
+README_ROWS = {"stage-1-diffuse-spheres": "diffuse spheres", "stage-2-plane-and-shadows": "+ plane, shadows",
+               "stage-3-mirrors": "+ mirrors, highlights", "default": "the default scene"}
+README_BOARDS = {"M4F": "Cortex-M4F", "M3": "Cortex-M3", "M0": "Cortex-M0", "RISC-V": "RISC-V, RV32IMC"}
+
+
+def table(header, rows):
+    """A text table, its columns aligned; the first column is text."""
+    cells = [header, *rows]
+    widths = [max(len(row[i]) for row in cells) for i in range(len(header))]
+    lines = ["  ".join(cell.ljust(width) if i == 0 else cell.rjust(width)
+                       for i, (cell, width) in enumerate(zip(row, widths))).rstrip() for row in cells]
+    return "\n".join(lines) + "\n"
+
+
+def compare(name, text, bless):
+    """Compares with a table that is checked in, or writes it."""
+    path = os.path.join(FIRMWARE, "tables", name)
+    if bless:
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return "written"
+    try:
+        with open(path, encoding="utf-8") as file:
+            known = file.read()
+    except FileNotFoundError:
+        if compiler() in name:
+            return f"none yet for this compiler ({name}); --bless writes it"
+        raise
+    if known != text:
+        old, new = known.splitlines(), text.splitlines()
+        lines = [f"  - {line}" for line in old if line not in new] + [f"  + {line}" for line in new if line not in old]
+        raise Failed(f"differs from tables/{name} (--bless accepts it):\n" + "\n".join(lines))
+    return "as checked in"
+
+
+def readme_table(measured, cycles):
+    """The README's table: `measured` gives (row, board) -> figures, `cycles` row -> cycles a pixel on the M4F."""
+    lines = [f"<!-- {compiler()} -->", "| scene | core | flash | RAM | stack | instructions a pixel | cycles a pixel |",
+             "|---|---|--:|--:|--:|--:|--:|"]
+    for row, name in README_ROWS.items():
+        for board, core in README_BOARDS.items():
+            figures = measured[row, board]
+            estimated = f"about {cycles[row]:,.0f}" if board == "M4F" else ""
+            lines.append(f"| {name if board == 'M4F' else ''} | {core} | {figures.flash:,} B | {figures.ram:,} B "
+                         f"| {figures.bound:,} B | {figures.instructions:,.0f} | {estimated} |")
+    return "\n".join(lines) + "\n"
+
+
+def compare_readme(text, bless):
+    """Compares with the README's table, or writes it. It has the figures of one compiler, rustup's."""
+    with open(README, encoding="utf-8") as file:
+        readme = file.read()
+    before, _, rest = readme.partition(BEGIN)
+    known, end, after = rest.partition(END)
+    if not end:
+        raise Failed(f"README.md has no `{BEGIN.strip()}` … `{END.strip()}`")
+    if BUILD_STD or not bless and f"<!-- {compiler()} -->" not in known:
+        return f"skipped, it has the figures of another compiler than {compiler()}"
+    if bless:
+        with open(README, "w", encoding="utf-8") as file:
+            file.write(before + BEGIN + text + END + after)
+        return "written"
+    if known != text:
+        raise Failed("README.md has other figures (--bless accepts these):\n" + text)
+    return "as measured"
