@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Everything that is promised of the device, checked on emulated boards, from a bare Debian machine or one with rustup:
-# installs what is missing, builds, runs every board, compares with tables/. Prints a line a check; fails if one fails.
+# installs what is missing, builds, runs every board, compares with tables/ and the README. Prints a line a check; fails if
+# one fails.
 #
 #   firmware/test.sh [--bless] [--keep FOLDER]
 #
-# --bless           accept the figures: writes tables/
+# --bless           accept the figures: writes tables/ and, with rustup's compiler, the README's table
 # --keep FOLDER     leave the images there
 # SCANRAY_TOOLCHAIN rustup or debian; unset takes rustup if it can provide the targets, else Debian's compiler
 set -euo pipefail
