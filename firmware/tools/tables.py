@@ -11,7 +11,7 @@ END = "<!-- Until here. -->\n"
 
 # Rows of the cost table -> what the README calls them.
 README_ROWS = {"stage-1-diffuse-spheres": "diffuse spheres", "stage-2-plane-and-shadows": "+ plane, shadows",
-               "stage-3-mirrors": "+ mirrors, highlights", "default": "the default scene"}
+               "stage-3-mirrors": "+ mirrors", "default": "+ highlights, glass, triangle: the default scene"}
 README_BOARDS = {"M4F": "Cortex-M4F", "M3": "Cortex-M3", "M0": "Cortex-M0", "RISC-V": "RISC-V, RV32IMC"}
 
 
