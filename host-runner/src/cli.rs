@@ -11,6 +11,7 @@ use crate::commands::completions::CompletionsArgs;
 use crate::commands::diff::DiffArgs;
 use crate::commands::export::ExportArgs;
 use crate::commands::fmt::FmtArgs;
+use crate::commands::generate::GenerateArgs;
 use crate::commands::inspect::InspectArgs;
 use crate::commands::join::JoinArgs;
 use crate::commands::man::ManArgs;
@@ -43,6 +44,8 @@ Examples:
   scanray pixel scene.txt 4,3              why a pixel has its colour
   scanray diff old.png new.png             how different two pictures are
   scanray report scene.txt                 what each setting costs and what it buys
+  scanray generate spheres --count 10000 -o many.txt
+                                           a large scene
   scanray help render                      all that render can do
 
 Exit codes: 0 fine, 1 pictures differ, 2 usage, 3 scene, 4 files."
@@ -90,6 +93,8 @@ pub(crate) enum Command {
     Man(ManArgs),
     /// Measure what each setting costs and what it buys, as a page with plots
     Report(ReportArgs),
+    /// Write a scene of any number of spheres or triangles, to measure with
+    Generate(GenerateArgs),
 }
 
 impl Cli {

@@ -37,7 +37,8 @@ use std::process::ExitCode;
 use cli::{Cli, Command};
 use commands::report as report_command;
 use commands::{
-    ask, bake, completions, diff, export, fmt, inspect, join, man, needs, pixel, render, view,
+    ask, bake, completions, diff, export, fmt, generate, inspect, join, man, needs, pixel, render,
+    view,
 };
 
 fn main() -> ExitCode {
@@ -56,6 +57,7 @@ fn main() -> ExitCode {
         Command::Completions(args) => completions::run(&args),
         Command::Man(args) => man::run(&args),
         Command::Report(args) => report_command::run(&args),
+        Command::Generate(args) => generate::run(&args),
     };
     result.unwrap_or_else(|failure| failure.report())
 }

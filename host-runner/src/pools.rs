@@ -8,7 +8,7 @@ use scanray::{FromDecimal, Scalar, ScenePools};
 ///
 /// They are statics, never on the stack. Empty pools are all zeros, so that they take no space in the
 /// executable, and no memory before a scene fills them.
-pub(crate) type HostPools<T> = ScenePools<T, 131_072, 1024, 131_072, 262_144, 16>;
+pub(crate) type HostPools<T> = ScenePools<T, 131_072, 1024, 131_072, 262_144, 16, 48, 262_144>;
 
 static F32: Mutex<HostPools<f32>> = Mutex::new(HostPools::new());
 static F64: Mutex<HostPools<f64>> = Mutex::new(HostPools::new());

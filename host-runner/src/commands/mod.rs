@@ -6,6 +6,7 @@ pub(crate) mod completions;
 pub(crate) mod diff;
 pub(crate) mod export;
 pub(crate) mod fmt;
+pub(crate) mod generate;
 pub(crate) mod inspect;
 pub(crate) mod join;
 pub(crate) mod man;

@@ -4,10 +4,13 @@ use std::ops::Range;
 
 use fearless_simd::prelude::*;
 
-use super::lanes::{Colors, Indices, LANES, Mask, Numbers, Rays, Vec3s};
+use super::lanes::{Indices, LANES, Mask, Numbers, Rays, Vec3s};
 
 /// Rays that a batch holds.
 pub(super) const CAPACITY: usize = 512;
+
+/// Lights that [`Batch::lit`] tells apart.
+pub(super) const MOST_LIGHTS: usize = 32;
 
 /// A number for each ray. Whole vectors are loaded and stored, so that the last rays need room behind
 /// them.
@@ -51,6 +54,21 @@ impl Columns {
     fn gather<S: Simd>(&self, simd: S, at: &Lanes) -> Vec3s<S> {
         let [x, y, z] = &self.0;
         Vec3s::new(at.gather(simd, x), at.gather(simd, y), at.gather(simd, z))
+    }
+
+    /// Stores the vectors of some lanes.
+    #[inline(always)]
+    pub(super) fn scatter<S: Simd>(&mut self, lanes: &Lanes, vectors: Vec3s<S>) {
+        if lanes.is_run && lanes.count == LANES {
+            self.store(lanes.rays[0] as usize, vectors);
+        } else {
+            for (lane, ray) in lanes.rays[..lanes.count].iter().enumerate() {
+                let v = vectors.lane(lane);
+                for (column, component) in self.0.iter_mut().zip([v.x, v.y, v.z]) {
+                    column[*ray as usize] = component;
+                }
+            }
+        }
     }
 
     pub(super) fn get(&self, at: usize) -> [f32; 3] {
@@ -113,6 +131,12 @@ pub(super) struct Batch {
     pub(super) t: Column<f32>,
     pub(super) place: [Column<f32>; 2],
     pub(super) color: Columns,
+    /// In a scene with a tree, where shadow rays start from what it meets, and the normal there; no normal for no
+    /// rays.
+    pub(super) outside: Columns,
+    pub(super) normal: Columns,
+    /// Which lights reach it: a bit for each.
+    pub(super) lit: Column<u32>,
     /// The rays that meet something, object by object.
     order: Column<u32>,
     pub(super) groups: Vec<Group>,
@@ -131,6 +155,9 @@ impl Batch {
             t: column(),
             place: [column(), column()],
             color: Columns::new(),
+            outside: Columns::new(),
+            normal: Columns::new(),
+            lit: column(),
             order: column(),
             groups: Vec::new(),
         }
@@ -249,18 +276,11 @@ impl Batch {
         [lanes.gather(simd, v2), lanes.gather(simd, v3)]
     }
 
+    /// The lanes that a light of a number below 32 reaches.
     #[inline(always)]
-    pub(super) fn set_colors<S: Simd>(&mut self, lanes: &Lanes, colors: Colors<S>) {
-        if lanes.is_run && lanes.count == LANES {
-            self.color.store(lanes.rays[0] as usize, colors);
-        } else {
-            for (lane, ray) in lanes.rays[..lanes.count].iter().enumerate() {
-                let color = colors.lane(lane);
-                for (column, channel) in self.color.0.iter_mut().zip([color.x, color.y, color.z]) {
-                    column[*ray as usize] = channel;
-                }
-            }
-        }
+    pub(super) fn lit<S: Simd>(&self, simd: S, lanes: &Lanes, light: usize) -> Mask<S> {
+        let lit = lanes.rays.map(|ray| self.lit[ray as usize] >> light & 1);
+        Indices::simd_from(simd, lit).simd_eq(1)
     }
 
     /// Lets rays meet nothing.

@@ -9,7 +9,8 @@
 //!
 //! A lane has the bits of the core, because every operation is the same one in the same order, a lane
 //! does not know of its neighbours, and the rays of a vector leave the same side, so that they are
-//! tested against the core's own candidates. What mirrors which function of the core is named beside
+//! tested against the core's own candidates. In a scene with a tree all objects are candidates and the
+//! rays of a vector are neighbours that may leave any sides ([`tree`]). What mirrors which function of the core is named beside
 //! it: a change of one is a change of both.
 
 mod batch;
@@ -18,6 +19,7 @@ mod shade;
 mod shapes;
 #[cfg(test)]
 mod tests;
+mod tree;
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -31,8 +33,9 @@ use scanray::{
 
 use crate::host_tracer::SampleRow;
 
-use batch::{Batch, CAPACITY, NOTHING, NOWHERE};
+use batch::{Batch, CAPACITY, MOST_LIGHTS, NOTHING, NOWHERE};
 use lanes::{Colors, Indices, LANES, Mask, Numbers, Rays, Vec3s};
+use tree::PacketTree;
 
 /// Traces eight rays at a time through a scene, which it has made lists of.
 #[derive(Debug)]
@@ -44,6 +47,8 @@ pub(crate) struct PacketTracer<'a, const STACK: usize> {
     triangles: Vec<Listed<'a, Triangle>>,
     /// All objects, in the order of their numbers.
     objects: Vec<Target<'a>>,
+    /// Of a large scene.
+    tree: PacketTree,
     /// Of threads that do not trace at the moment.
     idle: Mutex<Vec<Workspace>>,
 }
@@ -92,6 +97,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
             planes: Vec::with_capacity(scene.planes.len()),
             triangles: Vec::with_capacity(scene.triangles.len()),
             objects: Vec::with_capacity(scene.object_count()),
+            tree: PacketTree::default(),
             idle: Mutex::default(),
         };
         for (index, object) in (0..).zip(scene.objects()) {
@@ -119,6 +125,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
                 near: sides.map(Reach::near_in_any_direction),
             });
         }
+        packets.tree = PacketTree::new(&packets);
         packets
     }
 
@@ -139,6 +146,10 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
 
     /// The linear colours at a place in pixels of a row: those of `Tracer::sample_observed`.
     pub(crate) fn sample_row(&self, places: SampleRow, colors: &mut [Color]) {
+        let scene = self.tracer.scene();
+        if scene.tree.is_some() && scene.lights.len() > MOST_LIGHTS {
+            return self.row_by_core(places, colors);
+        }
         #[cfg(target_arch = "x86_64")]
         if let Some(simd) = self.level.as_avx2() {
             return self.row_on(simd, places, colors);
@@ -151,6 +162,10 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
         if let Some(simd) = self.level.as_neon() {
             return self.row_on(simd, places, colors);
         }
+        self.row_by_core(places, colors);
+    }
+
+    fn row_by_core(&self, places: SampleRow, colors: &mut [Color]) {
         // Without wide vectors the core is the fastest, and less to compile.
         let SampleRow { x, step, y, at } = places;
         let scanline = self.tracer.scanline_at(y, at);
@@ -239,12 +254,20 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
                 let Some((batch, below)) = batches.split_first_mut() else {
                     return;
                 };
+                let has_tree = self.tracer.scene().tree.is_some();
                 let mut at = 0;
                 while at < batch.len {
-                    at += self.meet(simd, batch, at, visible);
+                    at += if has_tree {
+                        self.meet_by_tree(simd, batch, at)
+                    } else {
+                        self.meet(simd, batch, at, visible)
+                    };
                 }
                 batch.group(counts);
                 let groups = std::mem::take(&mut batch.groups);
+                if has_tree {
+                    self.cast_shadows(simd, batch, &groups);
+                }
                 for group in &groups {
                     for start in group.range.clone().step_by(LANES) {
                         if let Some(next) = below.first()
@@ -286,7 +309,8 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
                 };
                 let mut closest = Closest::none(simd);
                 for sphere in self.spheres_among(candidates) {
-                    if let Some(t) = shapes::meet_sphere(simd, sphere.shape, &rays) {
+                    let (center, square) = (sphere.shape.center(), sphere.shape.radius_squared());
+                    if let Some(t) = shapes::meet_sphere(simd, center, square, &rays) {
                         closest.offer(simd, t, Mask::splat(simd, true), sphere.index);
                     }
                 }

@@ -11,14 +11,14 @@ use super::{PacketTracer, Target, shapes, splat};
 
 /// Meetings with the surface of one object, ready for shading. `Hit` of the core.
 #[derive(Clone, Copy)]
-struct Hits<S: Simd> {
+pub(super) struct Hits<S: Simd> {
     /// Unit normal on the side the ray comes from.
-    normal: Vec3s<S>,
+    pub(super) normal: Vec3s<S>,
     /// `|normal·direction|`.
     cosine: Numbers<S>,
     /// The geometric normal faces the ray.
     entering: Mask<S>,
-    outside: Vec3s<S>,
+    pub(super) outside: Vec3s<S>,
     inside: Vec3s<S>,
 }
 
@@ -49,14 +49,17 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                 let target = &self.objects[index as usize];
                 let rays = batch.rays(simd, lanes);
                 let Some(material) = target.material else {
-                    batch.set_colors(lanes, self.background(simd, rays.direction));
+                    batch
+                        .color
+                        .scatter(lanes, self.background(simd, rays.direction));
                     batch.forget(lanes);
                     return;
                 };
                 let valid = first_lanes(simd, lanes.count);
                 let hits = hits(simd, target, batch, lanes, &rays);
-                let color = self.local_color(simd, index, target, material, &rays, &hits, valid);
-                batch.set_colors(lanes, color);
+                let color =
+                    self.local_color(simd, index, target, material, batch, lanes, &rays, &hits);
+                batch.color.scatter(lanes, color);
 
                 let Some(below) = below else { return };
                 let description = material.description();
@@ -83,7 +86,7 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
         )
     }
 
-    /// `Tracer::local_color`, for the lanes of a mask.
+    /// `Tracer::local_color`.
     #[inline(always)]
     #[expect(clippy::too_many_arguments)]
     fn local_color<S: Simd>(
@@ -92,10 +95,12 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
         index: u32,
         target: &Target<'_>,
         material: &Material,
+        batch: &Batch,
+        of: &Lanes,
         rays: &Rays<S>,
         hits: &Hits<S>,
-        valid: Mask<S>,
     ) -> Colors<S> {
+        let valid = first_lanes(simd, of.count);
         let scene = self.tracer.scene();
         let description = material.description();
         let mut color = splat(simd, description.ambient * scene.ambient);
@@ -105,7 +110,7 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
         if !(front_open | back_open).any_true() {
             return color;
         }
-        for light in scene.lights {
+        for (number, light) in scene.lights.iter().enumerate() {
             let to_light = Vec3s::splat(simd, light.position) - hits.outside;
             let toward = hits.normal.dot(to_light);
             let distance_squared = to_light.dot(to_light);
@@ -120,12 +125,17 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                 origin: hits.outside,
                 direction: to_light * inverse,
             };
-            for (reach, lanes) in [(front, front_open), (back, back_open)] {
-                let lanes = lanes & facing;
-                if lanes.any_true() {
-                    let occluded =
-                        self.occluded(simd, &shadow, index, distance, reach.occluders, lanes);
-                    lit &= !(occluded & lanes);
+            if scene.tree.is_some() {
+                // `cast_shadows` has found it out.
+                lit &= batch.lit(simd, of, number);
+            } else {
+                for (reach, lanes) in [(front, front_open), (back, back_open)] {
+                    let lanes = lanes & facing;
+                    if lanes.any_true() {
+                        let occluded =
+                            self.occluded(simd, &shadow, index, distance, reach.occluders, lanes);
+                        lit &= !(occluded & lanes);
+                    }
                 }
             }
             if !lit.any_true() {
@@ -166,7 +176,9 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                 let mut occluded = !lanes;
                 for sphere in self.spheres_among(candidates) {
                     if sphere.casts_shadow {
-                        occluded |= shapes::sphere_occludes(simd, sphere.shape, rays, t_max);
+                        let (center, square) =
+                            (sphere.shape.center(), sphere.shape.radius_squared());
+                        occluded |= shapes::sphere_occludes(simd, center, square, rays, t_max);
                     }
                 }
                 for plane in self.planes_among(candidates) {
@@ -205,7 +217,7 @@ fn sides<S: Simd>(simd: S, index: u32, front: Mask<S>) -> Indices<S> {
 
 /// `surface_point` of the shapes and `Tracer::hit`.
 #[inline(always)]
-fn hits<S: Simd>(
+pub(super) fn hits<S: Simd>(
     simd: S,
     target: &Target<'_>,
     batch: &Batch,

@@ -1,7 +1,7 @@
 //! Eight rays against one object: `intersect` and `occludes` of the core's shapes, lane by lane.
 
 use fearless_simd::prelude::*;
-use scanray::shape::{Plane, Sphere, Triangle};
+use scanray::shape::{Plane, Triangle};
 use scanray::{Scalar, Vec3};
 
 use super::lanes::{Mask, Numbers, Rays, Vec3s};
@@ -11,13 +11,14 @@ use super::lanes::{Mask, Numbers, Rays, Vec3s};
 #[inline(always)]
 fn crossings<S: Simd>(
     simd: S,
-    sphere: &Sphere,
+    center: Vec3,
+    radius_squared: f32,
     rays: &Rays<S>,
 ) -> Option<(Numbers<S>, Numbers<S>)> {
-    let f = Vec3s::splat(simd, sphere.center()) - rays.origin;
+    let f = Vec3s::splat(simd, center) - rays.origin;
     let b = f.dot(rays.direction);
     let l = f - rays.direction * b;
-    let discriminant = Numbers::splat(simd, sphere.radius_squared()) - l.dot(l);
+    let discriminant = Numbers::splat(simd, radius_squared) - l.dot(l);
     if !discriminant.simd_ge(0.0).any_true() {
         return None;
     }
@@ -28,8 +29,13 @@ fn crossings<S: Simd>(
 
 /// Distance of the nearest crossing ahead; not above 0 or NaN for none. `Sphere::intersect`.
 #[inline(always)]
-pub(super) fn meet_sphere<S: Simd>(simd: S, sphere: &Sphere, rays: &Rays<S>) -> Option<Numbers<S>> {
-    let (near, far) = crossings(simd, sphere, rays)?;
+pub(super) fn meet_sphere<S: Simd>(
+    simd: S,
+    center: Vec3,
+    radius_squared: f32,
+    rays: &Rays<S>,
+) -> Option<Numbers<S>> {
+    let (near, far) = crossings(simd, center, radius_squared, rays)?;
     Some(near.simd_gt(0.0).select(near, far))
 }
 
@@ -37,11 +43,12 @@ pub(super) fn meet_sphere<S: Simd>(simd: S, sphere: &Sphere, rays: &Rays<S>) -> 
 #[inline(always)]
 pub(super) fn sphere_occludes<S: Simd>(
     simd: S,
-    sphere: &Sphere,
+    center: Vec3,
+    radius_squared: f32,
     rays: &Rays<S>,
     t_max: Numbers<S>,
 ) -> Mask<S> {
-    match crossings(simd, sphere, rays) {
+    match crossings(simd, center, radius_squared, rays) {
         Some((near, far)) => {
             (near.simd_gt(0.0) & near.simd_lt(t_max)) | (far.simd_gt(0.0) & far.simd_lt(t_max))
         }

@@ -13,7 +13,7 @@ use scanray::{
 use super::PacketTracer;
 use crate::host_tracer::SampleRow;
 
-type Pools = ScenePools<f32, 64, 64, 64, 192, 4, 192>;
+type Pools = ScenePools<f32, 64, 64, 64, 192, 4, 192, 128>;
 
 /// That of the host, so that everything is compiled once.
 const STACK: usize = crate::host_tracer::MAX_DEPTH;
@@ -208,6 +208,26 @@ fn draws_random_scenes_to_the_bit() {
 }
 
 #[test]
+fn draws_random_scenes_with_a_tree_to_the_bit() {
+    let scenes = if cfg!(debug_assertions) { 200 } else { 2000 };
+    let mut trees = 0;
+    for seed in 0..scenes {
+        let random = Random::new(1_000_000 + seed);
+        let mut pools = Box::new(Pools::new());
+        random.fill(&mut pools);
+        random.crowd(&mut pools);
+        pools.prepare();
+        trees += u64::from(pools.as_scene().tree.is_some());
+        let (width, height) = (1 + random.below(40), 1 + random.below(9));
+        let max_depth = random.pick(&[0, 1, 3]);
+        let name = format!("random crowd of seed {seed}");
+        let (width, height) = (width as u16, height as u16);
+        assert_same(&name, pools.as_scene(), width, height, max_depth);
+    }
+    assert!(trees > scenes / 2, "only {trees} of {scenes} have a tree");
+}
+
+#[test]
 fn draws_objects_without_material_and_with_any_numbers() {
     let sphere = |x, material, number| {
         Sphere::new(Vec3::new(x, 0.0, 3.0), 1.0, Surface { material, number }).unwrap()
@@ -375,6 +395,25 @@ impl Random {
             refraction: self.pick(&[0.0, 0.0, 0.4, 1.0, 3.0]),
             index_of_refraction: self
                 .pick(&[1.0, 1.0, 1.5, 1.5, 0.9, 1.0001, 2.4, 1e-3, 1e-6, 1e4, 1e10]),
+        }
+    }
+
+    /// Adds spheres and triangles of all sizes, as many as there is room for, but for a few.
+    fn crowd(&self, pools: &mut Pools) {
+        let mut pools = pools.as_mut();
+        let scale = self.pick(&[1.0, 1.0, 1e-3, 1e5]);
+        let grid = self.one_in(3);
+        let material = self.material();
+        for _ in 0..40 + self.below(100) {
+            let size = scale * self.pick(&[1e-3, 0.1, 0.3, 2.0]);
+            let at = self.point(3.0 * scale, grid);
+            let corner = || at + self.point(size, grid);
+            // What does not fit is left out.
+            let _ = if self.one_in(2) {
+                pools.add_sphere(at, size, material)
+            } else {
+                pools.add_triangle([corner(), corner(), corner()], material)
+            };
         }
     }
 

@@ -9,6 +9,7 @@ mod examples;
 mod export;
 mod files;
 mod fmt;
+mod generate;
 mod inspect;
 mod join;
 mod knobs;

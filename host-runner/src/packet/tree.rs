@@ -1,0 +1,412 @@
+//! Eight rays through the tree of a large scene: `Walk` of the core and what the core's tracer does with it.
+//!
+//! A box is visited if any of the rays may meet it, so that each ray is offered more than the core
+//! offers it; what it meets is the same.
+
+use fearless_simd::prelude::*;
+use scanray::{NodeContent, Tree, TreeEntry, Vec3};
+
+use super::batch::{self, Batch, Group, NOTHING};
+use super::lanes::{Indices, LANES, Mask, Numbers, Rays, Vec3s, first_lanes};
+use super::shade::hits;
+use super::{Closest, Listed, PacketTracer, shapes};
+
+/// The tree of a scene in another layout: a node has the boxes of its children, so that two are tested at
+/// once, subtrees are in one place, and leaves have with them what the tests of objects begin with.
+#[derive(Debug, Default)]
+pub(super) struct PacketTree {
+    /// Index and count of the root, as of the halves of a pair.
+    root: (u32, u16),
+    nodes: Vec<Pair>,
+    leaves: Vec<LeafObject>,
+}
+
+/// Two nodes.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+struct Pair {
+    low: [Vec3; 2],
+    high: [Vec3; 2],
+    /// Index of a pair or of the first object of a leaf.
+    first: [u32; 2],
+    /// Objects of a leaf; 0 for a pair.
+    count: [u16; 2],
+    /// The axis along which the first lies below the other.
+    axis: u32,
+}
+
+/// An object in a leaf.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LeafObject {
+    /// The sphere, or the ball around the triangle.
+    pub(super) center: Vec3,
+    pub(super) radius_squared: f32,
+    /// Its index among all objects.
+    pub(super) index: u32,
+    pub(super) is_triangle: bool,
+    pub(super) casts_shadow: bool,
+    /// Its index among those of its shape.
+    pub(super) of_shape: u32,
+}
+
+impl PacketTree {
+    pub(super) fn new<const STACK: usize>(packets: &PacketTracer<'_, STACK>) -> Self {
+        let tree = packets.tracer.scene().tree;
+        let mut new = Self::default();
+        // Nodes of the tree whose place in a pair is to be filled in, depth first.
+        let mut waiting = vec![(0, None)];
+        if !tree.is_some() {
+            waiting.clear();
+        }
+        while let Some((node, place)) = waiting.pop() {
+            let (first, count) = match tree.nodes[node].content() {
+                NodeContent::Leaf { first, count } => {
+                    let start = new.leaves.len() as u32;
+                    let entries = &tree.entries[first as usize..][..count as usize];
+                    new.leaves
+                        .extend(entries.iter().map(|entry| packets.leaf_object(*entry)));
+                    (start, count as u16)
+                }
+                NodeContent::Inner { first, axis } => {
+                    let children = [first, first + 1].map(|child| &tree.nodes[child as usize]);
+                    let index = new.nodes.len();
+                    new.nodes.push(Pair {
+                        low: children.map(|child| child.low()),
+                        high: children.map(|child| child.high()),
+                        first: [0; 2],
+                        count: [0; 2],
+                        axis: axis as u32,
+                    });
+                    waiting.push((first as usize + 1, Some((index, 1))));
+                    waiting.push((first as usize, Some((index, 0))));
+                    (index as u32, 0)
+                }
+            };
+            match place {
+                Some((pair, half)) => {
+                    new.nodes[pair].first[half] = first;
+                    new.nodes[pair].count[half] = count;
+                }
+                None => new.root = (first, count),
+            }
+        }
+        new
+    }
+}
+
+/// A walk of eight rays through a tree.
+struct Walk<'a, S: Simd> {
+    tree: &'a PacketTree,
+    inverse: Vec3s<S>,
+    /// The origins, moved by the margin for the rays, to compare with the lowest and the highest
+    /// coordinates of boxes.
+    low: Vec3s<S>,
+    high: Vec3s<S>,
+    leading: Leading<S>,
+    /// Whether most rays meet the upper one of two nodes first, by axis.
+    upper_first: [usize; 3],
+    /// What is still to be visited, pairs and leaves, the next one last.
+    waiting: [(u32, u16); Tree::<f32>::MAX_DEPTH + 1],
+    len: usize,
+}
+
+/// The axis of the largest component of each direction.
+#[derive(Clone, Copy)]
+enum Leading<S: Simd> {
+    /// The same for all rays.
+    Same(usize),
+    /// The rays with x, and of the others those with y.
+    Mixed(Mask<S>, Mask<S>),
+}
+
+impl<'a, S: Simd> Walk<'a, S> {
+    #[inline(always)]
+    fn new(simd: S, tree: &'a PacketTree, rays: &Rays<S>, active: Mask<S>) -> Self {
+        let (o, d) = (rays.origin, rays.direction);
+        let one = Numbers::splat(simd, 1.0);
+        let size = o.abs();
+        let margin = (size.x + size.y + size.z) * (f32::EPSILON * 64.0);
+        let margin = Vec3s::new(margin, margin, margin);
+        let most = |mask: Mask<S>| {
+            let negative = (mask & active).to_bitmask().count_ones();
+            usize::from(2 * negative > active.to_bitmask().count_ones())
+        };
+        let size = d.abs();
+        let x = size.x.simd_gt(size.y) & size.x.simd_gt(size.z);
+        let y = size.y.simd_gt(size.z);
+        let is_same = |mask: Mask<S>| (mask | !active).all_true();
+        let leading = if is_same(x) {
+            Leading::Same(0)
+        } else if is_same(y & !x) {
+            Leading::Same(1)
+        } else if is_same(!(x | y)) {
+            Leading::Same(2)
+        } else {
+            Leading::Mixed(x, y)
+        };
+        Self {
+            tree,
+            inverse: Vec3s::new(one / d.x, one / d.y, one / d.z),
+            low: o + margin,
+            high: o - margin,
+            leading,
+            upper_first: [
+                most(d.x.simd_lt(0.0)),
+                most(d.y.simd_lt(0.0)),
+                most(d.z.simd_lt(0.0)),
+            ],
+            waiting: [tree.root; Tree::<f32>::MAX_DEPTH + 1],
+            len: 1,
+        }
+    }
+
+    /// The next leaf with objects that one of the rays of a mask may meet at `t ≤ t_max`.
+    #[inline(always)]
+    fn next_leaf(
+        &mut self,
+        simd: S,
+        t_max: Numbers<S>,
+        active: Mask<S>,
+    ) -> Option<&'a [LeafObject]> {
+        while self.len > 0 {
+            self.len -= 1;
+            let (mut first, mut count) = self.waiting[self.len];
+            while count == 0 {
+                let pair = &self.tree.nodes[first as usize];
+                let lower = self.may_meet(simd, pair.low[0], pair.high[0], t_max) & active;
+                let upper = self.may_meet(simd, pair.low[1], pair.high[1], t_max) & active;
+                let half = match (lower.any_true(), upper.any_true()) {
+                    (false, false) => break,
+                    (true, false) => 0,
+                    (false, true) => 1,
+                    (true, true) => {
+                        let near = self.upper_first[pair.axis as usize];
+                        self.waiting[self.len] = (pair.first[near ^ 1], pair.count[near ^ 1]);
+                        self.len += 1;
+                        near
+                    }
+                };
+                (first, count) = (pair.first[half], pair.count[half]);
+            }
+            if count > 0 {
+                return Some(&self.tree.leaves[first as usize..][..usize::from(count)]);
+            }
+        }
+        None
+    }
+
+    /// The rays that may meet something in a box.
+    #[inline(always)]
+    fn may_meet(&self, simd: S, low: Vec3, high: Vec3, t_max: Numbers<S>) -> Mask<S> {
+        // Which of two numbers a NaN gives does not matter: its ray meets nothing.
+        let slab = |low: f32, high: f32, from: Numbers<S>, to: Numbers<S>, inverse: Numbers<S>| {
+            let a = (Numbers::splat(simd, low) - from) * inverse;
+            let b = (Numbers::splat(simd, high) - to) * inverse;
+            [a.min(b), a.max(b)]
+        };
+        let x = slab(low.x, high.x, self.low.x, self.high.x, self.inverse.x);
+        let y = slab(low.y, high.y, self.low.y, self.high.y, self.inverse.y);
+        let z = slab(low.z, high.z, self.low.z, self.high.z, self.inverse.z);
+        let entry = x[0].max(y[0]).max(z[0]);
+        let exit = x[1].min(y[1]).min(z[1]);
+        let [leading_entry, leading_exit] = match self.leading {
+            Leading::Same(0) => x,
+            Leading::Same(1) => y,
+            Leading::Same(_) => z,
+            Leading::Mixed(by_x, by_y) => {
+                let select = |i: usize| by_x.select(x[i], by_y.select(y[i], z[i]));
+                [select(0), select(1)]
+            }
+        };
+        entry.simd_le(exit) & leading_exit.simd_ge(0.0) & leading_entry.simd_le(t_max)
+    }
+}
+
+impl<const STACK: usize> PacketTracer<'_, STACK> {
+    fn leaf_object(&self, entry: TreeEntry) -> LeafObject {
+        let at = entry.index();
+        let (center, radius_squared, index, casts_shadow) = if entry.is_triangle() {
+            let Listed {
+                shape,
+                index,
+                casts_shadow,
+            } = self.triangles[at];
+            (
+                shape.ball_center(),
+                shape.ball_radius_squared(),
+                index,
+                casts_shadow,
+            )
+        } else {
+            let Listed {
+                shape,
+                index,
+                casts_shadow,
+            } = self.spheres[at];
+            (shape.center(), shape.radius_squared(), index, casts_shadow)
+        };
+        LeafObject {
+            center,
+            radius_squared,
+            index,
+            is_triangle: entry.is_triangle(),
+            casts_shadow,
+            of_shape: at as u32,
+        }
+    }
+
+    /// `meet`, for rays that may leave any sides. `Tracer::closest_in_tree`, and the planes.
+    pub(super) fn meet_by_tree<S: Simd>(&self, simd: S, batch: &mut Batch, at: usize) -> usize {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let rays = Rays {
+                    origin: batch.origin.load(simd, at),
+                    direction: batch.direction.load(simd, at),
+                };
+                let count = (batch.len - at).min(LANES);
+                let active = first_lanes(simd, count);
+                let leaves = Indices::from_slice(simd, &batch.leaves[at..at + LANES]) >> 1;
+                let mut closest = Closest::none(simd);
+                let mut walk = Walk::new(simd, &self.tree, &rays, active);
+                while let Some(objects) = walk.next_leaf(simd, closest.t, active) {
+                    for object in objects {
+                        if !object.is_triangle {
+                            let (center, square) = (object.center, object.radius_squared);
+                            if let Some(t) = shapes::meet_sphere(simd, center, square, &rays) {
+                                closest.offer(simd, t, active, object.index);
+                            }
+                        } else {
+                            let triangle = &self.triangles[object.of_shape as usize];
+                            if let Some(meeting) =
+                                shapes::meet_triangle(simd, triangle.shape, &rays)
+                            {
+                                let lanes = meeting.inside & !leaves.simd_eq(triangle.index);
+                                let closer = closest.offer(simd, meeting.t, lanes, triangle.index);
+                                for (place, new) in closest.place.iter_mut().zip(meeting.place) {
+                                    *place = closer.select(new, *place);
+                                }
+                            }
+                        }
+                    }
+                }
+                for plane in &self.planes {
+                    let t = shapes::meet_plane(simd, plane.shape, &rays);
+                    let lanes = !leaves.simd_eq(plane.index);
+                    closest.offer(simd, t, lanes, plane.index);
+                }
+                closest
+                    .object
+                    .store_slice(&mut batch.object[at..at + LANES]);
+                batch::store(&mut batch.t, at, closest.t);
+                for (column, place) in batch.place.iter_mut().zip(closest.place) {
+                    batch::store(column, at, place);
+                }
+                if closest.object.simd_eq(NOTHING).any_true() {
+                    let colors = self.background(simd, rays.direction);
+                    batch.color.store(at, colors);
+                }
+                count
+            },
+        )
+    }
+
+    /// Finds out which lights reach what the rays of a batch meet, eight neighbours at a time: many small
+    /// objects are met by fewer rays each than a vector has lanes.
+    pub(super) fn cast_shadows<S: Simd>(&self, simd: S, batch: &mut Batch, groups: &[Group]) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                for group in groups {
+                    let target = &self.objects[group.object as usize];
+                    for start in group.range.clone().step_by(LANES) {
+                        let lanes = batch.lanes(start..group.range.end);
+                        let rays = batch.rays(simd, &lanes);
+                        let hits = hits(simd, target, batch, &lanes, &rays);
+                        batch.outside.scatter(&lanes, hits.outside);
+                        batch.normal.scatter(&lanes, hits.normal);
+                    }
+                }
+                for at in (0..batch.len).step_by(LANES) {
+                    let objects = Indices::from_slice(simd, &batch.object[at..at + LANES]);
+                    let valid = first_lanes(simd, (batch.len - at).min(LANES));
+                    let valid = valid & !objects.simd_eq(NOTHING);
+                    let origin = batch.outside.load(simd, at);
+                    let normal = batch.normal.load(simd, at);
+                    let mut lit = [0; LANES];
+                    for (number, light) in self.tracer.scene().lights.iter().enumerate() {
+                        // As in `local_color`.
+                        let to_light = Vec3s::splat(simd, light.position) - origin;
+                        let toward = normal.dot(to_light);
+                        let distance_squared = to_light.dot(to_light);
+                        let facing = valid & toward.simd_gt(0.0) & distance_squared.simd_gt(0.0);
+                        if !facing.any_true() {
+                            continue;
+                        }
+                        let distance = distance_squared.sqrt();
+                        let inverse = Numbers::splat(simd, 1.0) / distance;
+                        let shadow = Rays {
+                            origin,
+                            direction: to_light * inverse,
+                        };
+                        let occluded =
+                            self.occluded_by_tree(simd, &shadow, objects, distance, facing);
+                        let reached = (!occluded).to_bitmask();
+                        for (lane, lit) in lit.iter_mut().enumerate() {
+                            *lit |= ((reached >> lane & 1) as u32) << number;
+                        }
+                    }
+                    batch.lit[at..at + LANES].copy_from_slice(&lit);
+                }
+            },
+        )
+    }
+
+    /// The lanes of a mask whose rays, which leave objects, meet one that casts a shadow before `t_max`, and all
+    /// others. `Tracer::occluded`.
+    fn occluded_by_tree<S: Simd>(
+        &self,
+        simd: S,
+        rays: &Rays<S>,
+        leaves: Indices<S>,
+        t_max: Numbers<S>,
+        lanes: Mask<S>,
+    ) -> Mask<S> {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let mut occluded = !lanes;
+                for plane in &self.planes {
+                    if plane.casts_shadow {
+                        let t = shapes::meet_plane(simd, plane.shape, rays);
+                        let lanes = !leaves.simd_eq(plane.index);
+                        occluded |= lanes & t.simd_gt(0.0) & t.simd_lt(t_max);
+                    }
+                }
+                let mut walk = Walk::new(simd, &self.tree, rays, lanes);
+                while !occluded.all_true()
+                    && let Some(objects) = walk.next_leaf(simd, t_max, !occluded)
+                {
+                    for object in objects {
+                        if !object.casts_shadow {
+                            continue;
+                        }
+                        if !object.is_triangle {
+                            let (center, square) = (object.center, object.radius_squared);
+                            occluded |= shapes::sphere_occludes(simd, center, square, rays, t_max);
+                        } else {
+                            let triangle = &self.triangles[object.of_shape as usize];
+                            if let Some(meeting) = shapes::meet_triangle(simd, triangle.shape, rays)
+                            {
+                                let t = meeting.t;
+                                let lanes = meeting.inside & !leaves.simd_eq(triangle.index);
+                                occluded |= lanes & t.simd_gt(0.0) & t.simd_lt(t_max);
+                            }
+                        }
+                    }
+                }
+                occluded
+            },
+        )
+    }
+}
