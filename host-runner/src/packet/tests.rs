@@ -209,7 +209,7 @@ fn draws_random_scenes_to_the_bit() {
 
 #[test]
 fn draws_random_scenes_with_a_tree_to_the_bit() {
-    let scenes = if cfg!(debug_assertions) { 200 } else { 2000 };
+    let scenes = if cfg!(debug_assertions) { 100 } else { 2000 };
     let mut trees = 0;
     for seed in 0..scenes {
         let random = Random::new(1_000_000 + seed);

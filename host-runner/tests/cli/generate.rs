@@ -56,7 +56,7 @@ fn is_drawn_by_its_tree_with_both_scalars() {
         let render = [
             "render", "many.txt", "--size", "40x30", "--scalar", scalar, "--json",
         ];
-        let run = folder.succeed(&[&render[..], &["-o", scalar]].concat());
+        let run = folder.succeed(&[&render[..], &["-o", &format!("{scalar}.ppm")]].concat());
         let report: serde_json::Value = serde_json::from_slice(&run.stdout).unwrap();
         let number = |place| report.pointer(place).unwrap().as_u64().unwrap();
         assert!(number("/tests/box") > 0);
