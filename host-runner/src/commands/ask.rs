@@ -27,8 +27,8 @@ const OUTPUT: &str = "output.ppm";
 /// The command line.
 #[derive(Args, Debug)]
 #[command(after_help = "\
-A wrong answer is asked for again. The end of the input ends the program: with exit code 0, or that of the last error
-that was told.
+A wrong answer is asked for again. The end of the input ends the program: with exit code 0, or that \
+of the last error that was told.
 
 Examples:
   echo 1 | scanray ask                  the default scene

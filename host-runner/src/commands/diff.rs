@@ -229,7 +229,7 @@ impl Measures {
         }
         writeln!(
             out,
-            "FLIP      {:.5} (0 looks the same, 1 could not look more different; {:.0} pixels a degree)",
+            "FLIP      {:.5} (mean; 0 looks the same, 1 as different as can be; {:.0} pixels a degree)",
             self.flip, self.pixels_per_degree
         )
     }

@@ -17,17 +17,18 @@ use crate::scene_file::SceneSource;
 /// The command line.
 #[derive(Args, Debug)]
 #[command(after_help = "\
-Camera, objects, light, shadows, highlights, mirrors and glass are the same, and POV-Ray draws the same picture but for
+The camera, objects, light, shadows, highlights, mirrors and glass are the same. POV-Ray draws the \
+same picture but for
 
   * colours above 1 in mirrors and behind glass: scanray clamps the colour of every ray to 0…1
   * total reflection: POV-Ray mirrors there, scanray adds nothing
-  * planes and triangles that bend light (refraction with an index other than 1): POV-Ray takes them for solids
+  * planes and triangles that bend light (an index other than 1): solids for POV-Ray
   * the maximum depth where rays pass straight (index 1): POV-Ray does not count them
   * highlights of another tint than the light's: POV-Ray gets the mean of their channels
-  * refraction above 0.999, and light that passes an index of 0
+  * refraction coefficients above 0.999
 
 Examples:
-  scanray export scene.txt -o scene.pov      then: povray +Iscene.pov +Oscene.png +W800 +H600 -A File_Gamma=1.0
+  scanray export scene.txt -o scene.pov      the file tells how to draw it with povray
   scanray export scenes/pyramids.txt -o small.pov --size 160x120
   scanray export scene.txt                   to standard output")]
 pub(crate) struct ExportArgs {

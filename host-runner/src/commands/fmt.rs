@@ -16,9 +16,9 @@ use crate::scene_file::SceneSource;
 /// The command line.
 #[derive(Args, Debug)]
 #[command(after_help = "\
-Numbers keep their value to the last digit and comments stay, so that the picture keeps its bits. Numbers that
-belong together stand together, `+.50` becomes `0.5`, a light of 8 numbers gets its ninth. A scene with an error is
-left as it is. Files are written beside their place and renamed.
+Numbers keep their value to the last digit and comments stay, so that the picture keeps its bits. \
+Numbers that belong together stand together, `+.50` becomes `0.5`, a light of 8 numbers gets its \
+ninth. A scene with an error is left as it is. Files are written beside their place and renamed.
 
 Examples:
   scanray fmt scene.txt                 rewrite a scene

@@ -137,7 +137,8 @@ impl Report {
     /// For people.
     fn write(&self, out: &mut dyn Write, color: &str) -> io::Result<()> {
         let memory = &self.memory;
-        writeln!(out, "{}: {} objects", self.scene, self.objects)?;
+        let plural = if self.objects == 1 { "" } else { "s" };
+        writeln!(out, "{}: {} object{plural}", self.scene, self.objects)?;
         writeln!(out, "stages: {}", self.stages.join(", "))?;
 
         writeln!(

@@ -29,9 +29,9 @@ Examples:
   scanray pixel scenes/pyramids.txt 80,64 --display st7735 --max-depth 2
                                              with settings as for render
 
-Columns count from 0 at the left, rows from 0 at the top. Numbers have the fewest digits that read back to the
-same bits; each ray tells its hit, then its secondary rays, then its result: the sum of the local colour and
-of the secondary rays' results times their factors, clamped to 0…1.")]
+Columns count from 0 at the left, rows from 0 at the top. Numbers have the fewest digits that read \
+back to the same bits. Each ray tells its hit, then its secondary rays, then its result: the local \
+colour and the secondary rays' results times their factors, clamped to 0…1.")]
 pub(crate) struct PixelArgs {
     /// Scene file, `-` for standard input
     #[arg(value_name = "SCENE")]

@@ -11,7 +11,7 @@ fn names_stages_sizes_and_a_line_for_firmware() {
     let run = folder.succeed(&["needs", "scene.txt", "--display", "ssd1306"]);
     let said = String::from_utf8(run.stdout).unwrap();
     for words in [
-        "scene.txt: 1 objects\nstages: spheres, light, shadows, specular, sky\n",
+        "scene.txt: 1 object\nstages: spheres, light, shadows, specular, sky\n",
         "row of 128 binary",
         "\nlet mut pools: ScenePools<f32, 1, 0, 0, 1, 1, 1> = ScenePools::new();\n\
          let tracer = Tracer::new(pools.as_scene());\n",
