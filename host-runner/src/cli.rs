@@ -48,7 +48,7 @@ Examples:
                                            a large scene
   scanray help render                      all that render can do
 
-Exit codes: 0 fine, 1 pictures differ, 2 usage, 3 scene, 4 files."
+Exit codes: 0 fine, 1 a difference (diff, fmt --check), 2 usage, 3 scene, 4 files."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]
@@ -62,39 +62,39 @@ struct NoCommand {
     render: RenderArgs,
 }
 
-/// The commands.
+/// The commands: to draw, to ask questions, to rewrite, the rest.
 #[derive(Subcommand, Debug)]
 pub(crate) enum Command {
     /// Draw scenes into image files
     Render(RenderArgs),
     /// Show a scene in the terminal, and again whenever it is saved
     View(ViewArgs),
-    /// Print a scene as it was read
-    Inspect(InspectArgs),
     /// Put a picture or turntable together that was drawn in parts
     Join(JoinArgs),
-    /// Write a scene as Rust source, for a `static` in a firmware's flash
-    Bake(BakeArgs),
+    /// Print a scene as it was read
+    Inspect(InspectArgs),
     /// Tell what a scene asks of a device: stages, bytes, a line for firmware
     Needs(NeedsArgs),
     /// Tell how the colours of pixels come about: the tree of rays
     Pixel(PixelArgs),
     /// Compare two pictures: numbers, a picture of the differences
     Diff(DiffArgs),
+    /// Measure what each setting costs and what it buys, as a page with plots
+    Report(ReportArgs),
     /// Rewrite scenes in canonical form, comments kept
     Fmt(FmtArgs),
+    /// Write a scene as Rust source, for a `static` in a firmware's flash
+    Bake(BakeArgs),
     /// Write a scene for POV-Ray
     Export(ExportArgs),
+    /// Write a scene of any number of spheres or triangles, to measure with
+    Generate(GenerateArgs),
     /// Ask which scene to draw: the dialogue of the original program
     Ask(AskArgs),
     /// Print what a shell needs to complete command lines
     Completions(CompletionsArgs),
     /// Print or write manual pages
     Man(ManArgs),
-    /// Measure what each setting costs and what it buys, as a page with plots
-    Report(ReportArgs),
-    /// Write a scene of any number of spheres or triangles, to measure with
-    Generate(GenerateArgs),
 }
 
 impl Cli {

@@ -16,7 +16,9 @@ use crate::host_tracer::HostTracer;
 use crate::options::{ScalarName, name_of, with_color};
 use crate::picture_args::{PictureArgs, PictureSettings};
 use crate::pools::HostScalar;
-use crate::ray_tree::{Names, PixelHeader, PixelReport, RayTree, color_digits, write_rays};
+use crate::ray_tree::{
+    Names, PixelHeader, PixelReport, RayTree, Samples, color_digits, write_rays,
+};
 use crate::scene_file::SceneSource;
 use crate::scene_lines::object_lines;
 
@@ -116,11 +118,16 @@ fn tell<T: HostScalar>(args: &PixelArgs, settings: &PictureSettings) -> Result<(
     print(|out| {
         for PixelPlace { x, y } in &args.pixels {
             let mut tree = RayTree::new();
-            let linear = tracer.pixel_observed(*x, *y, &mut tree);
+            // The rays of the pixel that its block repeats.
+            let block = settings.knobs.detail.block();
+            let traced = [x - x % block, y - y % block];
+            let linear = tracer.pixel_observed(traced[0], traced[1], &mut tree);
             let rays = tree.into_primary_rays();
             let header = PixelHeader {
                 size,
                 place: [*x, *y],
+                traced,
+                samples: Samples::of(&settings.knobs, rays.len()),
                 linear,
                 shown: with_color!(settings.color, C => shown::<T, C>(&tracer, [*x, *y], settings.dither)),
                 color: name_of(settings.color),
@@ -169,6 +176,21 @@ fn write_header<T: HostScalar>(
         header.size.width, header.size.height
     )?;
     writeln!(out, "linear        {}", color_digits(header.linear))?;
+    match header.samples {
+        Samples::One => {}
+        Samples::Mean { of } => writeln!(out, "samples       {of}, whose mean is the colour")?,
+        Samples::CentreAlone => {
+            writeln!(out, "samples       the centre: no neighbour differs enough")?
+        }
+        Samples::Edge { of } => writeln!(
+            out,
+            "samples       the centre, which differs from a neighbour, then {of}, whose mean is the colour"
+        )?,
+    }
+    if header.traced != header.place {
+        let [x, y] = header.traced;
+        writeln!(out, "block         shows the pixel {x},{y}")?;
+    }
     let dither = if header.dither { ", dithered" } else { "" };
     writeln!(
         out,

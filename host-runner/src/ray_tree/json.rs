@@ -5,6 +5,7 @@ use serde::{Serialize, Serializer};
 
 use super::text::Names;
 use super::{HitNode, LightNode, RayNode};
+use crate::knobs::Knobs;
 
 /// A number with the fewest digits that read back to the same bits of its type.
 #[derive(Clone, Copy, Debug)]
@@ -48,6 +49,10 @@ pub(crate) struct PixelReport {
     height: u16,
     x: u16,
     y: u16,
+    /// Column and row of the pixel whose rays are told.
+    traced: [u16; 2],
+    #[serde(flatten)]
+    samples: Samples,
     scalar: &'static str,
     max_depth: usize,
     /// The colour before quantisation.
@@ -124,10 +129,40 @@ struct NotCast {
 pub(crate) struct PixelHeader<T> {
     pub(crate) size: scanray::Resolution,
     pub(crate) place: [u16; 2],
+    /// The pixel whose rays are told: another one where a coarse picture repeats it.
+    pub(crate) traced: [u16; 2],
+    pub(crate) samples: Samples,
     pub(crate) linear: Color<T>,
     pub(crate) shown: [u8; 3],
     pub(crate) color: String,
     pub(crate) dither: bool,
+}
+
+/// What a pixel's rays from the camera are, in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(tag = "rays_are", rename_all = "kebab-case")]
+pub(crate) enum Samples {
+    /// One sample, whose colour is the pixel's.
+    One,
+    /// So many samples, whose mean is the pixel's colour.
+    Mean { of: usize },
+    /// The centre, which differs from no neighbour: its colour is the pixel's.
+    CentreAlone,
+    /// The centre, which differs from a neighbour, and so many samples, whose mean is the pixel's colour.
+    Edge { of: usize },
+}
+
+impl Samples {
+    /// What so many rays are.
+    pub(crate) fn of(knobs: &Knobs, rays: usize) -> Self {
+        let of = knobs.samples.pattern().len();
+        match (knobs.edges, rays) {
+            (None, 1) => Self::One,
+            (None, _) => Self::Mean { of },
+            (Some(_), 1) => Self::CentreAlone,
+            (Some(_), _) => Self::Edge { of },
+        }
+    }
 }
 
 impl PixelReport {
@@ -143,6 +178,8 @@ impl PixelReport {
             height: header.size.height,
             x: header.place[0],
             y: header.place[1],
+            traced: header.traced,
+            samples: header.samples,
             scalar: T::NAME,
             max_depth: names.max_depth,
             linear: color(header.linear),

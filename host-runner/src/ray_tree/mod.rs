@@ -3,7 +3,7 @@
 mod json;
 mod text;
 
-pub(crate) use json::{PixelHeader, PixelReport};
+pub(crate) use json::{PixelHeader, PixelReport, Samples};
 pub(crate) use text::{Names, color_digits, write_rays};
 
 use scanray::{

@@ -1,5 +1,7 @@
 //! How pixels come about.
 
+use std::collections::BTreeSet;
+
 use serde_json::Value;
 
 use crate::program::{Folder, SMALL_SCENE, scene};
@@ -43,6 +45,7 @@ fn recomputed(ray: &Value) -> Vec<f32> {
 #[test]
 fn agrees_with_the_picture_to_the_bit() {
     let folder = Folder::new();
+    let mut kinds = BTreeSet::new();
     for (name, settings) in [
         ("default", &["--size", "40x30"][..]),
         ("mirror-room", &["--size", "41x31", "--max-depth", "9"]),
@@ -51,6 +54,15 @@ fn agrees_with_the_picture_to_the_bit() {
             "reflective",
             &["--size", "40x30", "--color", "rgb565", "--dither"],
         ),
+        (
+            "default",
+            &["--size", "20x15", "--samples", "4", "--cutoff", "1/64"],
+        ),
+        (
+            "default",
+            &["--size", "40x30", "--adaptive", "1/16", "--scalar", "f32"],
+        ),
+        ("reflective", &["--size", "41x30", "--preview", "quarter"]),
         ("window-room", &["--size", "40x30", "--max-depth", "0"]),
     ] {
         let path = scene(name);
@@ -68,14 +80,25 @@ fn agrees_with_the_picture_to_the_bit() {
             let pixel = &picture.rgb888[(y * picture.width + x) * 3..][..3];
             let shown: Vec<u8> = serde_json::from_value(json["shown"].clone()).unwrap();
             assert_eq!(shown, pixel, "{name} {x},{y}");
-            let [ray] = &json["rays"].as_array().unwrap()[..] else {
-                panic!("{line}");
-            };
-            let color = recomputed(ray);
-            assert_eq!(color, numbers(&json["linear"]), "{name} {x},{y}");
-            assert_eq!(color, numbers(&ray["result"]));
+            let rays = json["rays"].as_array().unwrap();
+            kinds.insert(json["rays_are"].as_str().unwrap().to_owned());
+            for ray in rays {
+                assert_eq!(recomputed(ray), numbers(&ray["result"]));
+            }
+            // The samples come last; their number is a power of 2, so that the share is exact.
+            let of = json["of"].as_u64().unwrap_or(1) as usize;
+            let mut mean = [0.0; 3];
+            for ray in &rays[rays.len() - of..] {
+                for (sum, channel) in mean.iter_mut().zip(recomputed(ray)) {
+                    *sum += channel;
+                }
+            }
+            let mean: Vec<f32> = mean.iter().map(|sum| sum / of as f32).collect();
+            assert_eq!(mean, numbers(&json["linear"]), "{name} {x},{y}");
         }
     }
+    let kinds: Vec<&str> = kinds.iter().map(|kind| &**kind).collect();
+    assert_eq!(kinds, ["centre-alone", "edge", "mean", "one"]);
 }
 
 #[test]
