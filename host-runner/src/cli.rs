@@ -20,6 +20,8 @@ use crate::commands::pixel::PixelArgs;
 use crate::commands::render::RenderArgs;
 use crate::commands::report::ReportArgs;
 use crate::commands::view::ViewArgs;
+#[cfg(feature = "window")]
+use crate::commands::window::WindowArgs;
 
 /// Draws scenes for small displays on the desktop, with the bits the device will draw.
 #[derive(Parser, Debug)]
@@ -69,6 +71,9 @@ pub(crate) enum Command {
     Render(RenderArgs),
     /// Show a scene in the terminal, and again whenever it is saved
     View(ViewArgs),
+    /// Show a display in a window, drawn as slowly as a device draws
+    #[cfg(feature = "window")]
+    Window(WindowArgs),
     /// Put a picture or turntable together that was drawn in parts
     Join(JoinArgs),
     /// Print a scene as it was read
@@ -114,6 +119,15 @@ fn with_hint(error: clap::Error) -> clap::Error {
         _ => None,
     };
     let hint = match error.kind() {
+        ErrorKind::InvalidSubcommand
+            if word(ContextKind::InvalidSubcommand).is_some_and(|word| word == "window") =>
+        {
+            Some(
+                "this scanray was built without windows; build it again with SDL 2 (on Debian \
+                 libsdl2-dev): cargo install --path host-runner --features window"
+                    .to_owned(),
+            )
+        }
         ErrorKind::InvalidSubcommand => word(ContextKind::InvalidSubcommand)
             .filter(|word| word.ends_with(".txt") || Path::new(word).exists())
             .map(|path| format!("{path} is no command; to draw it: scanray render {path}")),

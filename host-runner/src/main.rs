@@ -47,6 +47,8 @@ fn main() -> ExitCode {
         Command::Inspect(args) => inspect::run(&args),
         Command::Join(args) => join::run(&args),
         Command::View(args) => view::run(&args),
+        #[cfg(feature = "window")]
+        Command::Window(args) => commands::window::run(&args),
         Command::Bake(args) => bake::run(&args),
         Command::Needs(args) => needs::run(&args),
         Command::Pixel(args) => pixel::run(&args),

@@ -15,3 +15,5 @@ pub(crate) mod pixel;
 pub(crate) mod render;
 pub(crate) mod report;
 pub(crate) mod view;
+#[cfg(feature = "window")]
+pub(crate) mod window;

@@ -69,6 +69,13 @@ fn usage_errors_say_what_to_do() {
 }
 
 #[test]
+#[cfg(not(feature = "window"))]
+fn a_program_without_windows_says_how_to_get_one() {
+    let said = Folder::new().fail(2, &["window", "scene.txt"]);
+    assert!(said.contains("--features window"), "{said}");
+}
+
+#[test]
 fn a_usage_error_of_rows_depends_on_the_size() {
     let folder = Folder::new();
     folder.succeed(&["render", "--rows", "600..601", "--size", "2x700"]);
