@@ -169,6 +169,17 @@ impl Scalar for f32 {
         f32::abs(self)
     }
 
+    // As integers positive numbers are in their order, below infinity, NaN and all negative numbers: a
+    // comparison of floats costs more, and is a call where they are emulated.
+    #[inline(always)]
+    fn clamp01(self) -> Self {
+        const ONE: u32 = 1.0_f32.to_bits();
+        const INFINITY: u32 = f32::INFINITY.to_bits();
+        let bits = self.to_bits();
+        let above_zero = if bits > INFINITY { 0 } else { bits };
+        f32::from_bits(if above_zero > ONE { ONE } else { above_zero })
+    }
+
     #[inline(always)]
     fn is_negative(self) -> bool {
         self.is_sign_negative()

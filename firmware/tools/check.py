@@ -24,7 +24,7 @@ import oled
 import profiler
 import stack_bound
 from builder import BOARDS, FIRMWARE, Builder, Failed, compiler
-from tables import README_ROWS, compare, compare_readme, readme_table, table
+from tables import README_ROWS, compare, compare_costs, compare_readme, readme_table, table
 
 TIMEOUT = 120
 
@@ -380,12 +380,12 @@ def check_all(builder, report, bless):
     rows.sort(key=lambda row: (row[1], columns.index(row[2])))
     cost = table(["scene", "profile", "board", "flash", "RAM", "stack bound", "stack used", "instructions/pixel"], rows)
     print(cost, end="")
-    report.check("costs", lambda: compare(f"cost-{compiler()}.txt", cost, bless))
+    report.check("costs", lambda: compare_costs(f"cost-{compiler()}.txt", cost, bless))
     cycles = table(["scene", "profile", "target-cpu", "instructions/pixel", "cycles/pixel"],
                    [[*row, f"{instructions:.1f}", f"{cycles:.0f}"] for row, (instructions, cycles) in
                     sorted(boards[0].cycles.items(), key=lambda item: item[0][1:])])
     print(cycles, end="")
-    report.check("cycles", lambda: compare(f"cycles-{compiler()}.txt", cycles, bless))
+    report.check("cycles", lambda: compare_costs(f"cycles-{compiler()}.txt", cycles, bless))
     report.check("README", lambda: readme_check(boards, bless))
     for row, figure in LIMITS:
         report.check(f"M4F {row} {figure}", lambda: limit_check(boards[0], row, figure))

@@ -45,6 +45,33 @@ def compare(name, text, bless):
     return "as checked in"
 
 
+def compare_costs(name, text, bless):
+    """Compares costs, figure by figure, with a table that is checked in, within 1 %, or writes it. What is measured is named by the first
+    three columns."""
+    path = os.path.join(FIRMWARE, "tables", name)
+    if bless or not os.path.exists(path):
+        return compare(name, text, bless)
+
+    def figures(content):
+        header, *rows = [re.split(r"  +", line) for line in content.splitlines()]
+        return {(*row[:3], figure): cell for row in rows for figure, cell in zip(header[3:], row[3:])}
+
+    with open(path, encoding="utf-8") as file:
+        known, got, different = figures(file.read()), figures(text), []
+    for key in sorted(known.keys() | got.keys()):
+        was, now = known.get(key, "nothing"), got.get(key, "nothing")
+        try:
+            close = abs(float(now) - float(was)) <= 0.01 * float(was)
+        except ValueError:
+            close = was == now
+        if not close:
+            scene, profile, board, figure = key
+            different.append(f"  {scene} ({profile}) on {board}: {figure} {now}, was {was}")
+    if different:
+        raise Failed(f"more than 1 % from tables/{name} (--bless accepts it):\n" + "\n".join(different))
+    return "within 1 % of what is checked in"
+
+
 def readme_table(measured, cycles):
     """The README's table: `measured` gives (row, board) -> figures, `cycles` row -> cycles a pixel on the M4F."""
     lines = [f"<!-- {compiler()} -->", "| scene | core | flash | RAM | stack | instructions a pixel | cycles a pixel |",

@@ -144,7 +144,7 @@ impl<T: Scalar> Triangle<T> {
     /// Distance and place of the crossing within `0 < t ≤ t_max`.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray<T>, t_max: T) -> Option<(T, Barycentric<T>)> {
-        if ray.leaves.object() == self.surface.number || !self.may_meet(ray) {
+        if !self.may_meet(ray) || ray.leaves.object() == self.surface.number {
             return None;
         }
         self.intersect_exactly(ray, t_max)
