@@ -6,7 +6,7 @@
 use scanray::shape::{Plane, Sphere, Triangle};
 use scanray::{
     Background, Camera, DEFAULT_MAX_DEPTH, Light, Material, Reach, Resolution, Scalar, Scene,
-    Tracer, Tree, TreeEntry, TreeNode,
+    Tracer, Tree, TreeEntry, TreeNode, Zones,
 };
 use serde::Serialize;
 
@@ -68,6 +68,41 @@ pub(crate) struct PoolMemory {
     pub(crate) bytes: usize,
     /// The picture is the same without it.
     pub(crate) for_speed_alone: bool,
+    /// Its capacity is a parameter of `ScenePools` of its own.
+    #[serde(skip)]
+    has_parameter: bool,
+    #[serde(skip)]
+    entry: Layout,
+}
+
+/// A pool of entries that a scene cannot do without.
+fn pool<E>(name: &'static str, entries: usize) -> PoolMemory {
+    let entry = Layout::of::<E>();
+    PoolMemory {
+        pool: name,
+        entries,
+        bytes_each: entry.size,
+        bytes: entry.size * entries,
+        for_speed_alone: false,
+        has_parameter: true,
+        entry,
+    }
+}
+
+impl PoolMemory {
+    fn for_speed(self) -> Self {
+        Self {
+            for_speed_alone: true,
+            ..self
+        }
+    }
+
+    fn with_another(self) -> Self {
+        Self {
+            has_parameter: false,
+            ..self
+        }
+    }
 }
 
 /// What a scene and its renderer take.
@@ -103,40 +138,19 @@ impl DeviceMemory {
         } else {
             bounded
         };
+        // The zones have the capacity of the planes, the entries of the tree that of its nodes.
         let pools = [
-            (
-                "spheres",
-                Layout::of::<Sphere<T>>(),
-                scene.spheres.len(),
-                false,
-            ),
-            (
-                "planes",
-                Layout::of::<Plane<T>>(),
-                scene.planes.len(),
-                false,
-            ),
-            (
-                "triangles",
-                Layout::of::<Triangle<T>>(),
-                scene.triangles.len(),
-                false,
-            ),
-            (
-                "materials",
-                Layout::of::<Material<T>>(),
-                scene.materials.len(),
-                false,
-            ),
-            (
-                "lights",
-                Layout::of::<Light<T>>(),
-                scene.lights.len(),
-                false,
-            ),
-            ("sides", Layout::of::<[Reach; 2]>(), objects, true),
-            ("tree nodes", Layout::of::<TreeNode<T>>(), in_tree, true),
-            ("tree entries", Layout::of::<TreeEntry>(), in_tree, true),
+            pool::<Sphere<T>>("spheres", scene.spheres.len()),
+            pool::<Plane<T>>("planes", scene.planes.len()),
+            pool::<Triangle<T>>("triangles", scene.triangles.len()),
+            pool::<Material<T>>("materials", scene.materials.len()),
+            pool::<Light<T>>("lights", scene.lights.len()),
+            pool::<[Reach; 2]>("sides", objects).for_speed(),
+            pool::<Zones<T>>("zones", scene.planes.len()).with_another(),
+            pool::<TreeNode<T>>("tree nodes", in_tree).for_speed(),
+            pool::<TreeEntry>("tree entries", in_tree)
+                .for_speed()
+                .with_another(),
         ];
         let plain = [
             Layout::of::<Camera<T>>(),
@@ -145,10 +159,12 @@ impl DeviceMemory {
             Layout::of::<Background<T>>(),
         ];
         let settings = Layout::record(&plain);
-        let lists = pools.map(|(_, entry, count, _)| entry.pool(count, word));
+        let lists = pools
+            .each_ref()
+            .map(|pool| pool.entry.pool(pool.entries, word));
         let scene_pools = Layout::record(&[&[settings], &lists[..]].concat());
         // A slice each.
-        let view = Layout::record(&[&plain[..], &[Layout::words(2, word); 8]].concat());
+        let view = Layout::record(&[&plain[..], &[Layout::words(2, word); 9]].concat());
         let tracer = Layout::record(&[
             view,
             Layout::of::<Resolution>(),
@@ -159,13 +175,6 @@ impl DeviceMemory {
             size: Tracer::<T>::FRAME_BYTES,
             align: align_of::<T>(),
         };
-        let pools = pools.map(|(pool, entry, entries, for_speed_alone)| PoolMemory {
-            pool,
-            entries,
-            bytes_each: entry.size,
-            bytes: entry.size * entries,
-            for_speed_alone,
-        });
         Self {
             baked: view.size + pools.iter().map(|pool| pool.bytes).sum::<usize>(),
             pools: pools.into(),
@@ -180,9 +189,9 @@ impl DeviceMemory {
 
     /// The type of the pools with just enough room.
     pub(crate) fn pools_type(&self, scalar: &str) -> String {
-        let mut capacities: Vec<_> = self.pools.iter().map(|pool| pool.entries).collect();
-        // Nodes and entries of a tree have one parameter, which is 0 unless it is written.
-        capacities.pop();
+        let parameters = self.pools.iter().filter(|pool| pool.has_parameter);
+        let mut capacities: Vec<_> = parameters.map(|pool| pool.entries).collect();
+        // That of the tree is 0 unless it is written.
         if capacities.last() == Some(&0) {
             capacities.pop();
         }
@@ -250,7 +259,7 @@ mod tests {
             assert_eq!(use_.used, use_.capacity, "just enough room");
         }
         let nodes = size_of_val(scene.tree.entries);
-        assert_eq!(memory.pools[7].bytes, nodes);
+        assert_eq!(memory.pools.last().map(|pool| pool.bytes), Some(nodes));
     }
 
     #[test]
