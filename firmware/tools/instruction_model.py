@@ -21,14 +21,17 @@ import sys
 import tempfile
 
 import emulate
-from builder import BOARDS, FIRMWARE, Builder, Failed
-from check import PIXELS, compiler, scenes
+from builder import BOARDS, FIRMWARE, Builder, Failed, compiler
+from check import scenes
 
 TABLE = os.path.join(FIRMWARE, "..", "host-runner", "src", "cost", "instructions.txt")
-CORES = [board for board in ("mps2-an386", "mps2-an385", "microbit")]
+CORES = ("mps2-an386", "mps2-an385", "microbit")
 TERMS = ["primary_rays", "reflected_rays", "refracted_rays", "shadow_rays", "sphere_tests", "plane_tests", "triangle_tests",
-         "sphere_crossings", "ball_crossings", "sphere_hits", "plane_hits", "triangle_hits", "lit"]
+         "sphere_crossings", "ball_crossings", "sphere_hits", "plane_hits", "triangle_hits", "bending_hits", "lit", "highlights"]
 MADE_UP = 12
+# As `depths` draws.
+SIZE = (80, 60)
+PIXELS = SIZE[0] * SIZE[1]
 TIMEOUT = 1200
 
 
@@ -99,9 +102,9 @@ def host_program():
     return os.path.join(json.loads(metadata)["target_directory"], "release", "scanray")
 
 
-def figures(program, path, depth=None):
-    """What the host prints of a picture of the firmware's size, without keeping it."""
-    words = [program, "render", path, "--size", "160x120", "--json", "-o", os.devnull]
+def figures(program, path, size, depth=None):
+    """What the host prints of a picture, without keeping it."""
+    words = [program, "render", path, "--size", f"{size[0]}x{size[1]}", "--json", "-o", os.devnull]
     done = subprocess.run(words + (["--max-depth", str(depth)] if depth is not None else []),
                           check=True, capture_output=True, text=True)
     return json.loads(done.stdout)
@@ -149,7 +152,7 @@ def main():
         counts = {}
         for name, path in known.items():
             for depth in measured[CORES[0], name]:
-                work = figures(program, path, depth)["work"]
+                work = figures(program, path, SIZE, depth)["work"]
                 counts[name, depth] = [work[term] / PIXELS for term in TERMS]
 
     columns = {}

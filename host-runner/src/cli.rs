@@ -19,6 +19,7 @@ use crate::commands::needs::NeedsArgs;
 use crate::commands::pixel::PixelArgs;
 use crate::commands::render::RenderArgs;
 use crate::commands::report::ReportArgs;
+use crate::commands::tune::TuneArgs;
 use crate::commands::view::ViewArgs;
 #[cfg(feature = "window")]
 use crate::commands::window::WindowArgs;
@@ -86,6 +87,8 @@ pub(crate) enum Command {
     Diff(DiffArgs),
     /// Measure what each setting costs and what it buys, as a page with plots
     Report(ReportArgs),
+    /// Find the settings with the least error for a device and a time
+    Tune(TuneArgs),
     /// Rewrite scenes in canonical form, comments kept
     Fmt(FmtArgs),
     /// Write a scene as Rust source, for a `static` in a firmware's flash

@@ -38,7 +38,7 @@ use cli::{Cli, Command};
 use commands::report as report_command;
 use commands::{
     ask, bake, completions, diff, export, fmt, generate, inspect, join, man, needs, pixel, render,
-    view,
+    tune, view,
 };
 
 fn main() -> ExitCode {
@@ -60,6 +60,7 @@ fn main() -> ExitCode {
         Command::Man(args) => man::run(&args),
         Command::Report(args) => report_command::run(&args),
         Command::Generate(args) => generate::run(&args),
+        Command::Tune(args) => tune::run(&args),
     };
     result.unwrap_or_else(|failure| failure.report())
 }

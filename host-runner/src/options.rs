@@ -173,6 +173,20 @@ pub(crate) enum ColorName {
     Binary,
 }
 
+impl ColorName {
+    /// Levels of the finest channel.
+    pub(crate) fn levels(self) -> u16 {
+        match self {
+            Self::Rgb888 | Self::Bgr888 | Self::Gray8 => 256,
+            Self::Rgb666 | Self::Bgr666 | Self::Rgb565 | Self::Bgr565 => 64,
+            Self::Rgb555 | Self::Bgr555 => 32,
+            Self::Gray4 => 16,
+            Self::Gray2 => 4,
+            Self::Binary => 2,
+        }
+    }
+}
+
 /// `with_color!(name, C => expression)`: the expression with `C` standing for the named colour of
 /// embedded-graphics.
 macro_rules! with_color {

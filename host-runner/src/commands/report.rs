@@ -23,8 +23,8 @@ Examples:
   scanray report scene.txt --size 96x64 -o small     small/index.html and other forms
   scanray report scene.txt --size 96x64 --only csv   the figures alone, as report/report.csv
 
-Several scenes become one report: scanray report scenes/*.txt. The page needs no network. Errors are measured against
-the scene in f64 and with 256 samples a pixel; instructions are predicted for Cortex-M4F, M3 and M0. How each figure comes
+Several scenes become one report: scanray report scenes/*.txt. The page needs no network. Errors are measured against \
+the scene in f64 and with 256 samples a pixel; instructions are predicted for Cortex-M4F, M3 and M0. How each figure comes \
 about is told at the end of the page.")]
 pub(crate) struct ReportArgs {
     /// Scene files, `-` for standard input; the default scene if there are none

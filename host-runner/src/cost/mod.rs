@@ -1,7 +1,9 @@
 //! What a picture costs: the tracer's work, counted, and what it stands for on a microcontroller.
 
+mod cycles;
 mod instructions;
 mod work;
 
+pub(crate) use cycles::{Span, cycles};
 pub(crate) use instructions::{Core, MODEL};
 pub(crate) use work::{Counter, Work};

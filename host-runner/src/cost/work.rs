@@ -31,6 +31,8 @@ pub(crate) struct Work {
     pub(crate) sphere_hits: u64,
     pub(crate) plane_hits: u64,
     pub(crate) triangle_hits: u64,
+    /// Of these, those on materials that bend rays.
+    pub(crate) bending_hits: u64,
     /// Lights that reach a hit.
     pub(crate) lit: u64,
     /// Lights that show a highlight.
@@ -58,7 +60,7 @@ impl Work {
     }
 
     /// Everything that is counted, by its name.
-    pub(crate) fn counts(&self) -> [(&'static str, u64); 16] {
+    pub(crate) fn counts(&self) -> [(&'static str, u64); 17] {
         [
             ("pixels", self.pixels),
             ("primary_rays", self.primary_rays),
@@ -74,6 +76,7 @@ impl Work {
             ("sphere_hits", self.sphere_hits),
             ("plane_hits", self.plane_hits),
             ("triangle_hits", self.triangle_hits),
+            ("bending_hits", self.bending_hits),
             ("lit", self.lit),
             ("highlights", self.highlights),
         ]
@@ -115,6 +118,7 @@ impl Add for Work {
             sphere_hits: self.sphere_hits + other.sphere_hits,
             plane_hits: self.plane_hits + other.plane_hits,
             triangle_hits: self.triangle_hits + other.triangle_hits,
+            bending_hits: self.bending_hits + other.bending_hits,
             lit: self.lit + other.lit,
             highlights: self.highlights + other.highlights,
         }
@@ -196,7 +200,10 @@ impl<T: Scalar> Observer<T> for Counter<T> {
         }
     }
 
-    fn meeting(&mut self, _: &Meeting<'_, T>) {
+    fn meeting(&mut self, meeting: &Meeting<'_, T>) {
+        let material = meeting.material;
+        let bends = material.refraction > T::ZERO && material.index_of_refraction != T::ONE;
+        self.work.bending_hits += u64::from(bends);
         match self.closest {
             Some((_, Shape::Sphere)) => self.work.sphere_hits += 1,
             Some((_, Shape::Plane)) => self.work.plane_hits += 1,

@@ -1,9 +1,9 @@
 //! Measures every setting of every knob.
 
-use scanray::{Dithered, Exact, Resolution, Scalar, Scene};
+use scanray::{Color, Dithered, Exact, Resolution, Scalar, Scene};
 
 use super::document::{Configuration, Cost, Line, Measure, PerPixel, SceneReport, Verdict};
-use super::errors::{Errors, Steps};
+use super::errors::{Error, Errors, Steps};
 use super::linear::{Linear, shown};
 use super::pareto::{Point, dominators};
 use super::references::{LeftOut, References};
@@ -34,6 +34,15 @@ pub(crate) struct Sweep<'a> {
 struct Drawn {
     linear: Linear,
     shown: Vec<[u8; 3]>,
+}
+
+/// What settings take and how wrong their picture is.
+pub(crate) struct Estimate {
+    pub(crate) work: Work,
+    /// Of a picture.
+    pub(crate) instructions: f64,
+    /// Of what is shown, against R2, in levels of 255.
+    pub(crate) rmse: f64,
 }
 
 impl<'a> Sweep<'a> {
@@ -122,14 +131,7 @@ impl<'a> Sweep<'a> {
         let exact = exact.colors(settings.sampling, self.workers);
         let exact = Linear::new(self.resolution, &exact);
         let r1 = self.references.r1(settings.sampling, self.workers);
-        let on_display = Linear {
-            resolution: self.resolution,
-            pixels: drawn
-                .shown
-                .iter()
-                .map(|pixel| pixel.map(|channel| f64::from(channel) / 255.0))
-                .collect(),
-        };
+        let on_display = self.on_display(&drawn.shown);
         let errors = Errors::split(&Steps {
             shown: &on_display,
             linear: &drawn.linear,
@@ -158,6 +160,41 @@ impl<'a> Sweep<'a> {
         })
     }
 
+    /// What settings in `f32` take and how wrong their picture is, and nothing else.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure`].
+    pub(crate) fn estimate(&self, settings: &Settings, core: Core) -> Result<Estimate, Failure> {
+        let tracer = self.tracer(self.scene.single(settings.power), settings)?;
+        let work = tracer.work(settings.sampling, self.workers);
+        let colors = tracer.colors(settings.sampling, self.workers);
+        let on_display = self.on_display(&self.shown(&colors, settings));
+        Ok(Estimate {
+            instructions: MODEL.instructions_per_pixel(&work, core) * work.pixels as f64,
+            rmse: Error::between(&on_display, &self.references.r2).rmse,
+            work,
+        })
+    }
+
+    /// What the display shows, in 8 bits a channel.
+    fn shown<T: Scalar>(&self, colors: &[Color<T>], settings: &Settings) -> Vec<[u8; 3]> {
+        with_color!(settings.color, C => if settings.dither {
+            shown::<T, Dithered<C>>(colors, self.resolution)
+        } else {
+            shown::<T, Exact<C>>(colors, self.resolution)
+        })
+    }
+
+    /// The same in numbers.
+    fn on_display(&self, shown: &[[u8; 3]]) -> Linear {
+        let channels = |pixel: &[u8; 3]| pixel.map(|channel| f64::from(channel) / 255.0);
+        Linear {
+            resolution: self.resolution,
+            pixels: shown.iter().map(channels).collect(),
+        }
+    }
+
     fn tracer<'s, T: Scalar>(
         &self,
         scene: Scene<'s, T>,
@@ -175,11 +212,7 @@ impl<'a> Sweep<'a> {
     ) -> Result<(Drawn, Work, HostTime), Failure> {
         let tracer = self.tracer(scene, settings)?;
         let colors = tracer.colors(settings.sampling, self.workers);
-        let shown = with_color!(settings.color, C => if settings.dither {
-            shown::<T, Dithered<C>>(&colors, self.resolution)
-        } else {
-            shown::<T, Exact<C>>(&colors, self.resolution)
-        });
+        let shown = self.shown(&colors, settings);
         let drawn = Drawn {
             linear: Linear::new(self.resolution, &colors),
             shown,

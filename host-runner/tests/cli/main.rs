@@ -19,5 +19,6 @@ mod pixel;
 mod program;
 mod render;
 mod report;
+mod tune;
 mod turntable;
 mod view;

@@ -1,0 +1,90 @@
+//! `scanray tune`.
+
+use crate::program::{Folder, SMALL_SCENE};
+
+/// Runs `tune` on the small scene with a budget and more; returns exit code and JSON.
+fn tuned(budget: &str, more: &[&str]) -> (i32, serde_json::Value) {
+    let folder = Folder::new();
+    folder.write("a.txt", SMALL_SCENE);
+    let fixed = [
+        "tune", "a.txt", "--target", "M4F", "--clock", "100MHz", "--size", "16x12", "--json",
+        "--budget", budget,
+    ];
+    let run = folder.run(&[&fixed, more].concat());
+    let json = serde_json::from_slice(&run.stdout).unwrap_or_else(|_| panic!("{}", run.stderr));
+    (run.code, json)
+}
+
+#[test]
+fn more_time_is_never_worse_and_is_kept_to() {
+    let mut last = f64::INFINITY;
+    for (budget, limit) in [("1ms", 1.0), ("5ms", 5.0), ("40ms", 40.0), ("10s", 1e4)] {
+        let (code, json) = tuned(budget, &[]);
+        assert_eq!(code, 0, "{json}");
+        let best = &json["best"];
+        let most = best["milliseconds"]["most"].as_f64().unwrap();
+        let least = best["milliseconds"]["least"].as_f64().unwrap();
+        assert!(least < most && most <= limit, "{json}");
+        let error = best["rmse"].as_f64().unwrap();
+        assert!(error <= last);
+        last = error;
+        if let Some(better) = json["better"].as_object() {
+            assert!(better["milliseconds"]["most"].as_f64().unwrap() > limit);
+            assert!(better["rmse"].as_f64().unwrap() < error);
+        }
+        if let Some(cheaper) = json["cheaper"].as_object() {
+            assert!(cheaper["instructions"].as_f64() < best["instructions"].as_f64());
+            assert!(cheaper["rmse"].as_f64().unwrap() > error);
+        }
+    }
+}
+
+#[test]
+fn wait_states_cost() {
+    let most = |more: &[&str]| {
+        let (_, json) = tuned("10s", more);
+        json["best"]["milliseconds"]["most"].as_f64().unwrap()
+    };
+    assert!(most(&["--wait-states", "5"]) > 2.0 * most(&[]));
+}
+
+#[test]
+fn says_when_nothing_fits() {
+    let (code, json) = tuned("1us", &[]);
+    assert_eq!(code, 1);
+    assert!(json["best"].is_null() && json["better"].is_object());
+    let folder = Folder::new();
+    folder.write("a.txt", SMALL_SCENE);
+    let run = folder.run(&[
+        "tune", "a.txt", "--target", "m0", "--clock", "8 MHz", "--budget", "1ms", "--size", "8x6",
+    ]);
+    assert_eq!(run.code, 1);
+    let said = String::from_utf8(run.stdout).unwrap();
+    assert!(
+        said.contains("nothing fits") && said.contains("the cheapest"),
+        "{said}"
+    );
+}
+
+#[test]
+fn units_are_asked_for() {
+    let folder = Folder::new();
+    for (clock, budget, words) in [
+        ("168", "100ms", "such as 168MHz"),
+        ("0MHz", "100ms", "such as 168MHz"),
+        ("168MHz", "100", "such as 100ms"),
+        ("168MHz", "-1ms", "such as 100ms"),
+    ] {
+        let clock = format!("--clock={clock}");
+        let budget = format!("--budget={budget}");
+        let said = folder.fail(2, &["tune", "--target", "m4f", &clock, &budget]);
+        assert!(said.contains(words), "{said}");
+    }
+    let said = folder.fail(
+        2,
+        &[
+            "tune", "--target", "m7", "--clock", "1MHz", "--budget", "1s",
+        ],
+    );
+    assert!(said.contains("m4f, m3, m0"), "{said}");
+}
