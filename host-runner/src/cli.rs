@@ -34,8 +34,8 @@ Without a command, the default scene is drawn into output.ppm.
 
 Examples:
   scanray                                  draw the default scene
-  scanray render scene.txt -o scene.png    draw a scene into a PNG file
-  scanray render scene.txt -o tft.png --display st7789
+  scanray render scene.txt -o scene.png    draw a scene of yours into a PNG file
+  scanray render -o tft.png --display st7789
                                            see it as a small colour display shows it
   scanray render --display list            displays to choose from
   scanray render scene.txt -o turn.gif --turntable 36
