@@ -24,7 +24,7 @@ import oled
 import profiler
 import stack_bound
 from builder import BOARDS, FIRMWARE, Builder, Failed, compiler
-from tables import README_ROWS, compare, compare_costs, compare_readme, readme_table, table
+from tables import compare, compare_costs, compare_readme, table
 
 TIMEOUT = 120
 
@@ -307,15 +307,6 @@ def oled_check(builder, reference, scene, path, png):
     return f"all {len(panel)} pixels as the host's, {len(set(panel))} greys"
 
 
-def readme_check(boards, bless):
-    measured = {(row, BOARDS[board.name][1]): board.measured.get((row, "size")) for board in boards for row in README_ROWS}
-    if None in measured.values() or not README_ROWS.keys() <= {row for row, *_ in boards[0].cycles}:
-        raise Failed("not all figures were measured")
-    cycles = {row: cycles for (row, profile, core), (_, cycles) in boards[0].cycles.items()
-              if (profile, core) == ("size", "cortex-m4")}
-    return compare_readme(readme_table(measured, cycles), bless)
-
-
 def limit_check(board, row, figure):
     measured = board.measured.get((row, "size"))
     if measured is None:
@@ -386,7 +377,7 @@ def check_all(builder, report, bless):
                     sorted(boards[0].cycles.items(), key=lambda item: item[0][1:])])
     print(cycles, end="")
     report.check("cycles", lambda: compare_costs(f"cycles-{compiler()}.txt", cycles, bless))
-    report.check("README", lambda: readme_check(boards, bless))
+    report.check("README", lambda: compare_readme(bless))
     for row, figure in LIMITS:
         report.check(f"M4F {row} {figure}", lambda: limit_check(boards[0], row, figure))
 
