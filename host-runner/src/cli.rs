@@ -19,6 +19,7 @@ use crate::commands::needs::NeedsArgs;
 use crate::commands::pixel::PixelArgs;
 use crate::commands::render::RenderArgs;
 use crate::commands::report::ReportArgs;
+use crate::commands::stability::StabilityArgs;
 use crate::commands::tune::TuneArgs;
 use crate::commands::view::ViewArgs;
 #[cfg(feature = "window")]
@@ -51,7 +52,8 @@ Examples:
                                            a large scene
   scanray help render                      all that render can do
 
-Exit codes: 0 fine, 1 a difference (diff, fmt --check), 2 usage, 3 scene, 4 files."
+Exit codes: 0 fine, 1 a difference (diff, fmt --check) or a figure beyond its bound (stability),
+2 usage, 3 scene, 4 files."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]
@@ -89,6 +91,8 @@ pub(crate) enum Command {
     Report(ReportArgs),
     /// Find the settings with the least error for a device and a time
     Tune(TuneArgs),
+    /// Measure stiff and extreme cases: a table of figures and their bounds
+    Stability(StabilityArgs),
     /// Rewrite scenes in canonical form, comments kept
     Fmt(FmtArgs),
     /// Write a scene as Rust source, for a `static` in a firmware's flash

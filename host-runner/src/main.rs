@@ -38,7 +38,7 @@ use cli::{Cli, Command};
 use commands::report as report_command;
 use commands::{
     ask, bake, completions, diff, export, fmt, generate, inspect, join, man, needs, pixel, render,
-    tune, view,
+    stability, tune, view,
 };
 
 fn main() -> ExitCode {
@@ -56,6 +56,7 @@ fn main() -> ExitCode {
         Command::Fmt(args) => fmt::run(&args),
         Command::Export(args) => export::run(&args),
         Command::Ask(args) => ask::run(&args),
+        Command::Stability(args) => stability::run(&args),
         Command::Completions(args) => completions::run(&args),
         Command::Man(args) => man::run(&args),
         Command::Report(args) => report_command::run(&args),

@@ -14,6 +14,7 @@ pub(crate) mod needs;
 pub(crate) mod pixel;
 pub(crate) mod render;
 pub(crate) mod report;
+pub(crate) mod stability;
 pub(crate) mod tune;
 pub(crate) mod view;
 #[cfg(feature = "window")]

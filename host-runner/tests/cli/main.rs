@@ -19,6 +19,7 @@ mod pixel;
 mod program;
 mod render;
 mod report;
+mod stability;
 mod tune;
 mod turntable;
 mod view;

@@ -239,11 +239,7 @@ fn sign_of_zero<T: Number>(record: &mut Record) {
         let colors = record.draw(&Tracer::new(pools.as_scene()));
         let expected = record.draw(&Tracer::new(expected.as_scene()));
         let wrong = super::image::different(&colors, &expected);
-        record.count(
-            format!("{name}: pixels that differ"),
-            wrong,
-            expected.len() as u64,
-        );
+        record.count_in(&name, "pixels that differ", wrong, expected.len() as u64);
     }
 }
 

@@ -15,6 +15,7 @@ mod input;
 mod record;
 mod shading;
 
+pub(crate) use image::telephoto;
 pub use record::{Effort, Finding, Quantity, Record};
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -97,6 +98,21 @@ impl Case {
         [geometry::CASES, shading::CASES, image::CASES, input::CASES].concat()
     }
 
+    /// Its name in words: `1e_3` is 1e-3, `0_9` is 0.9.
+    pub fn title(&self) -> String {
+        let name: Vec<char> = self.name.chars().collect();
+        let digit = |place: usize| name.get(place).is_some_and(char::is_ascii_digit);
+        let sign = |(place, letter): (usize, &char)| match letter {
+            '_' if place > 1 && digit(place + 1) && digit(place - 1) => '.',
+            '_' if place > 1 && digit(place + 1) && name[place - 1] == 'e' && digit(place - 2) => {
+                '-'
+            }
+            '_' => ' ',
+            letter => *letter,
+        };
+        name.iter().enumerate().map(sign).collect()
+    }
+
     /// Where the case is checked if it needs a board and cannot be measured here.
     pub fn on_boards(&self) -> Option<&'static str> {
         match self.how {
@@ -135,3 +151,18 @@ macro_rules! cases {
     };
 }
 use cases;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn titles_have_numbers_in_them() {
+        let title = |number: usize| Case::all()[number - 1].title();
+        assert_eq!(title(3), "sphere at radius over distance 1e-4");
+        assert_eq!(title(41), "mirrors of 0.9 at depth 16");
+        assert_eq!(title(31), "shell of 1e-3 radii");
+        assert_eq!(title(56), "field of view of 179.9 degrees");
+        assert_eq!(title(69), "single precision on every scene");
+    }
+}

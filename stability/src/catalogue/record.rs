@@ -69,6 +69,8 @@ pub struct Record {
     effort: Effort,
     findings: Vec<Finding>,
     seed: Option<u64>,
+    /// Statements that hold.
+    statements: u64,
     /// Pixels drawn, and those of them that are no colours or took too many rays.
     drawn: u64,
     broken: u64,
@@ -86,6 +88,7 @@ impl Record {
             effort,
             findings: Vec::new(),
             seed: None,
+            statements: 0,
             drawn: 0,
             broken: 0,
             cut: 0,
@@ -94,7 +97,12 @@ impl Record {
     }
 
     pub(super) fn into_findings(mut self) -> Vec<Finding> {
+        if self.statements > 0 {
+            self.seed = None;
+            self.count("statements that do not hold", 0, self.statements);
+        }
         if self.drawn > 0 {
+            self.seed = None;
             self.count(
                 "pixels that are no colour or took too many rays",
                 self.broken,
@@ -149,9 +157,27 @@ impl Record {
         self.add(what, Quantity::Count, wrong as f64, Some(0.0), of);
     }
 
-    /// Whether something holds.
+    /// A number of wrong answers in one of several places, of which none may be: one figure for all places but
+    /// those where something is wrong.
+    pub(super) fn count_in(&mut self, place: &str, what: &str, wrong: u64, of: u64) {
+        if wrong > 0 {
+            self.count(format!("{place}: {what}"), wrong, of);
+            return;
+        }
+        let same = |finding: &&mut Finding| finding.what == what;
+        match self.findings.iter_mut().find(same) {
+            Some(finding) => finding.of += of,
+            None => self.count(what, wrong, of),
+        }
+    }
+
+    /// Whether something holds: a finding if it does not, and a number of all that do.
     pub(super) fn holds(&mut self, what: impl Into<String>, holds: bool) {
-        self.count(what, u64::from(!holds), 1);
+        if holds {
+            self.statements += 1;
+        } else {
+            self.count(what, 1, 1);
+        }
     }
 
     /// A share of wrong answers.
@@ -176,14 +202,7 @@ impl Record {
         self.add(what, Quantity::Error, worst, Some(bound), of);
     }
 
-    /// The last figure, for the textbook's form.
-    pub(super) fn textbook(&mut self, measured: f64) {
-        if let Some(last) = self.findings.last_mut() {
-            last.textbook = Some(measured);
-        }
-    }
-
-    /// The share of the same number of things that the last figure is of, for the textbook's form.
+    /// The last figure, for the textbook's form: how many of the same number of things.
     pub(super) fn textbook_share(&mut self, wrong: u64) {
         if let Some(last) = self.findings.last_mut() {
             last.textbook = Some(match last.quantity {

@@ -582,8 +582,9 @@ fn length_of_directions<T: Number>(record: &mut Record) {
             scaled::<T>(2e-7),
             lengths.rays,
         );
-        record.count(
-            format!("{name}: rays without a place or direction"),
+        record.count_in(
+            &name,
+            "rays without a place or direction",
             lengths.infinite,
             lengths.rays,
         );
@@ -686,8 +687,9 @@ fn objects_of_index_1<T: Number>(record: &mut Record) {
                 changed += u64::from(distance > 1);
             }
         }
-        record.count(
-            format!("{name}: settled pixels changed by more than 1 level"),
+        record.count_in(
+            name,
+            "settled pixels changed by more than 1 level",
             changed,
             settled,
         );
