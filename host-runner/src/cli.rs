@@ -52,8 +52,7 @@ Examples:
                                            a large scene
   scanray help render                      all that render can do
 
-Exit codes: 0 fine, 1 a difference (diff, fmt --check) or a figure beyond its bound (stability),
-2 usage, 3 scene, 4 files."
+Exit codes: 0 fine, 1 a difference (diff, fmt --check) or a figure beyond its bound (stability), 2 usage, 3 scene, 4 files."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]

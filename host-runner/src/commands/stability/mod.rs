@@ -20,8 +20,7 @@ use report::{Measured, Shown};
 /// The command line.
 #[derive(Args, Debug)]
 #[command(after_help = "\
-Without options, all 69 cases are measured, the last of them on every scene at 800x600, which takes a
-minute or so.
+Without options, all 69 cases are measured, the last of them on every scene at 800x600, which takes a minute or so.
 
 Examples:
   scanray stability 26 44                  two of the cases
