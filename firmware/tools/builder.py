@@ -1,5 +1,6 @@
 """Builds the programs with cargo, and says which boards there are."""
 
+import glob
 import os
 import re
 import shutil
@@ -21,6 +22,12 @@ BOARDS = {
 
 class Failed(Exception):
     """Why a check fails."""
+
+
+def scenes():
+    """Scene name -> file, those of the repository first."""
+    paths = sorted(glob.glob("../scenes/*.txt", root_dir=FIRMWARE)) + sorted(glob.glob("scenes/*.txt", root_dir=FIRMWARE))
+    return {os.path.basename(path).removesuffix(".txt"): path for path in paths}
 
 
 class Builder:

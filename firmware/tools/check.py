@@ -9,7 +9,6 @@ images in a folder. SCANRAY_BUILD_STD=1 builds the core library from source.
 
 import argparse
 import concurrent.futures
-import glob
 import os
 import re
 import shutil
@@ -20,10 +19,11 @@ import time
 
 import elf
 import emulate
+import instruction_model
 import oled
 import profiler
 import stack_bound
-from builder import BOARDS, FIRMWARE, Builder, Failed, compiler
+from builder import BOARDS, FIRMWARE, Builder, Failed, compiler, scenes
 from tables import compare, compare_costs, compare_readme, table
 
 TIMEOUT = 120
@@ -55,12 +55,6 @@ class Report:
         self.passed += 1
         print(f"ok      {name}" + (f": {value}" if isinstance(value, str) else ""), flush=True)
         return value
-
-
-def scenes():
-    """Scene name -> file, those of the repository first."""
-    paths = sorted(glob.glob("../scenes/*.txt", root_dir=FIRMWARE)) + sorted(glob.glob("scenes/*.txt", root_dir=FIRMWARE))
-    return {os.path.basename(path).removesuffix(".txt"): path for path in paths}
 
 
 def run(image, received=b""):
@@ -378,8 +372,23 @@ def check_all(builder, report, bless):
     print(cycles, end="")
     report.check("cycles", lambda: compare_costs(f"cycles-{compiler()}.txt", cycles, bless))
     report.check("README", lambda: compare_readme(bless))
+    model_checks(report, boards)
     for row, figure in LIMITS:
         report.check(f"M4F {row} {figure}", lambda: limit_check(boards[0], row, figure))
+
+
+def model_checks(report, boards):
+    """The host's prediction of instructions against what the boards counted: a line for each scene and board."""
+    program = report.check("host program", instruction_model.host_program)
+    if program is None:
+        return
+    for scene, path in scenes().items():
+        predicted = instruction_model.figures(program, path, (160, 120))["predicted_instructions_per_pixel"]
+        for board in boards:
+            measured, core = board.measured.get((scene, "size")), BOARDS[board.name][1]
+            if measured and core in predicted:
+                report.check(f"{core} {scene}, predicted",
+                             lambda: instruction_model.compare(predicted[core], measured.instructions))
 
 
 def oled_checks(builder, report, reference, bless):

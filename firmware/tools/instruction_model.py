@@ -21,8 +21,7 @@ import sys
 import tempfile
 
 import emulate
-from builder import BOARDS, FIRMWARE, Builder, Failed, compiler
-from check import scenes
+from builder import BOARDS, FIRMWARE, Builder, Failed, compiler, scenes
 
 TABLE = os.path.join(FIRMWARE, "..", "host-runner", "src", "cost", "instructions.txt")
 CORES = ("mps2-an386", "mps2-an385", "microbit")
@@ -33,6 +32,8 @@ MADE_UP = 12
 SIZE = (80, 60)
 PIXELS = SIZE[0] * SIZE[1]
 TIMEOUT = 1200
+# How far off a prediction may be.
+TOLERANCE = 0.10
 
 
 def made_up(number):
@@ -105,9 +106,17 @@ def host_program():
 def figures(program, path, size, depth=None):
     """What the host prints of a picture, without keeping it."""
     words = [program, "render", path, "--size", f"{size[0]}x{size[1]}", "--json", "-o", os.devnull]
-    done = subprocess.run(words + (["--max-depth", str(depth)] if depth is not None else []),
+    done = subprocess.run(words + (["--max-depth", str(depth)] if depth is not None else []), cwd=FIRMWARE,
                           check=True, capture_output=True, text=True)
     return json.loads(done.stdout)
+
+
+def compare(predicted, counted):
+    """How far off a prediction is, if it is not too far off."""
+    off = f"{predicted:,.0f} instructions a pixel, {counted:,.0f} were counted: {100 * (predicted / counted - 1):+.1f} %"
+    if abs(predicted / counted - 1) > TOLERANCE:
+        raise Failed(off + "; fit the model again (instruction_model.py)")
+    return off
 
 
 Picture = collections.namedtuple("Picture", "scene depth counts instructions")
