@@ -114,7 +114,7 @@ mod tests {
         pixels.rgb[3] = [255; 3];
         pixels.rgb[1] = [255; 3];
         pixels.rgb[8] = [255; 3];
-        assert_eq!(lines(&pixels, Style::Letters), ["@+", "  @"]);
+        assert_eq!(lines(&pixels, Style::Letters), ["@=", "  @"]);
     }
 
     #[test]
