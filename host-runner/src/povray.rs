@@ -6,6 +6,7 @@
 //! it. A transparent pigment weakens diffuse light and emission, which are strengthened by as much.
 
 use std::fmt;
+use std::path::Path;
 
 use scanray::{Color, Light, MaterialDescription, Object, Resolution, Scalar, Scene, Vec3};
 
@@ -21,6 +22,8 @@ pub(crate) struct PovScene<'a, T> {
     pub(crate) scene: Scene<'a, T>,
     /// Where it comes from, for the comment.
     pub(crate) name: &'a str,
+    /// The file it becomes, for the command that draws it.
+    pub(crate) file: &'a Path,
     pub(crate) resolution: Resolution,
     pub(crate) max_depth: usize,
 }
@@ -36,7 +39,9 @@ impl<T: Scalar> fmt::Display for PovScene<'_, T> {
         )?;
         writeln!(
             f,
-            "//   povray +IFILE.pov +OFILE.png +W{width} +H{height} -A File_Gamma=1.0"
+            "//   povray {} {} +W{width} +H{height} -A File_Gamma=1.0",
+            shell_word("+I", self.file),
+            shell_word("+O", &self.file.with_extension("png"))
         )?;
         writeln!(f, "#version 3.7;\n")?;
         // The ray from the camera is a level too.
@@ -97,6 +102,17 @@ impl<T: Scalar> fmt::Display for PovScene<'_, T> {
             }
         }
         Ok(())
+    }
+}
+
+/// An option with a path, as a shell and one line have it.
+fn shell_word(option: &str, path: &Path) -> String {
+    let word = format!("{option}{}", path.display()).replace('\n', " ");
+    let is_plain = |c: char| c.is_alphanumeric() || "+-_./".contains(c);
+    if word.chars().all(is_plain) {
+        word
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
     }
 }
 

@@ -120,7 +120,16 @@ impl SceneSource {
         Ok(())
     }
 
-    /// The same, but the warning is returned.
+    /// Whether it is a scene in this number type.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure::Scene`].
+    pub(crate) fn check<T: HostScalar>(&self, text: &[u8]) -> Result<(), Failure> {
+        self.parse(text, &mut T::pools(), &renderer()).map(drop)
+    }
+
+    /// The same as [`SceneSource::load_text`], but the warning is returned.
     ///
     /// # Errors
     ///
@@ -153,6 +162,17 @@ fn renderer() -> Renderer {
     }
 }
 
+/// What to do about text that an editor has marked as Unicode.
+fn encoding_help(text: &[u8]) -> Option<&'static str> {
+    if text.starts_with(b"\xef\xbb\xbf") {
+        Some("the file begins with a byte-order mark (BOM); save it as UTF-8 without one")
+    } else if text.starts_with(b"\xff\xfe") || text.starts_with(b"\xfe\xff") {
+        Some("the file is UTF-16; save it as UTF-8 without a byte-order mark (BOM)")
+    } else {
+        None
+    }
+}
+
 /// What is wrong with a scene, with its line and a caret below the place.
 fn error_report(name: &str, text: &[u8], error: &ParseError, renderer: &Renderer) -> String {
     // The line of the error, and the place in it. Only the line is shown, because the rest may be no
@@ -180,6 +200,9 @@ fn error_report(name: &str, text: &[u8], error: &ParseError, renderer: &Renderer
         .line_start(error.line as usize)
         .annotation(AnnotationKind::Primary.span(span));
     let title = Level::ERROR.primary_title(error.message().to_string());
-    let group: Group<'_> = title.element(snippet);
+    let mut group: Group<'_> = title.element(snippet);
+    if let Some(help) = encoding_help(text) {
+        group = group.element(Level::HELP.message(help));
+    }
     renderer.render(&[group])
 }

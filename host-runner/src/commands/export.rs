@@ -8,7 +8,7 @@ use scanray::DEFAULT_MAX_DEPTH;
 
 use crate::console::{print, say};
 use crate::failure::Failure;
-use crate::options::{Size, max_depth};
+use crate::options::{ScalarName, Size, max_depth};
 use crate::output::Place;
 use crate::pools::HostScalar;
 use crate::povray::PovScene;
@@ -53,6 +53,10 @@ pub(crate) struct ExportArgs {
         allow_negative_numbers = true
     )]
     max_depth: usize,
+
+    /// Number type that has room for the scene's numbers, which are written in full
+    #[arg(long, value_name = "TYPE", default_value = "f32")]
+    scalar: ScalarName,
 }
 
 /// Writes the scene.
@@ -63,12 +67,22 @@ pub(crate) struct ExportArgs {
 pub(crate) fn run(args: &ExportArgs) -> Result<ExitCode, Failure> {
     let place = place(&args.output)?;
     let source = SceneSource::named(Some(&args.scene));
+    let text = source.read()?;
+    if args.scalar == ScalarName::F32 {
+        // What scanray cannot draw in f32 is no scene for the other commands either.
+        source.check::<f32>(&text)?;
+    }
     let mut pools = f64::pools();
-    source.load(&mut pools)?;
+    source.load_text(&text, &mut pools)?;
     let scene = pools.as_scene();
+    let file = match &place {
+        Some(_) => args.output.clone(),
+        None => source.stem().with_extension("pov"),
+    };
     let pov = PovScene {
         scene,
         name: &source.name(),
+        file: &file,
         resolution: args.size.map_or(scene.resolution, |Size(size)| size),
         max_depth: args.max_depth,
     };

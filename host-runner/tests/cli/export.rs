@@ -10,7 +10,7 @@ fn writes_a_file_or_standard_output() {
     assert_eq!(run.stderr, "Scene for POV-Ray written to scene.pov\n");
     let pov = String::from_utf8(folder.read("scene.pov")).unwrap();
     for words in [
-        "+W8 +H6 -A File_Gamma=1.0\n",
+        "//   povray +Iscene.pov +Oscene.png +W8 +H6 -A File_Gamma=1.0\n",
         "#version 3.7;\n",
         "max_trace_level 6 ",
         "camera { perspective location <0.0, 0.0, 0.0> direction z up 2*y right 2.6666666666666665*x }\n",
@@ -31,6 +31,28 @@ fn writes_a_file_or_standard_output() {
         pov.contains("max_trace_level 1 ") && pov.contains("right 6.0*x"),
         "{pov}"
     );
+}
+
+#[test]
+fn the_command_in_the_file_can_be_pasted() {
+    let folder = Folder::new();
+    folder.write("scene.txt", SMALL_SCENE);
+    folder.succeed(&["export", "scene.txt", "-o", "it's a.pov"]);
+    let pov = String::from_utf8(folder.read("it's a.pov")).unwrap();
+    let command = r"povray '+Iit'\''s a.pov' '+Oit'\''s a.png' +W8 +H6 -A File_Gamma=1.0";
+    assert!(pov.contains(&format!("//   {command}\n")), "{pov}");
+}
+
+#[test]
+fn rejects_what_the_other_commands_reject() {
+    let folder = Folder::new();
+    folder.write("scene.txt", SMALL_SCENE.replace("0 0 3  1", "0 0 3  1e-60"));
+    let said = folder.fail(3, &["export", "scene.txt"]);
+    assert_eq!(said, folder.fail(3, &["inspect", "scene.txt"]));
+    assert!(said.contains("scene.txt:8:11"), "{said}");
+    let arguments = ["export", "scene.txt", "--scalar", "f64"];
+    let pov = String::from_utf8(folder.succeed(&arguments).stdout).unwrap();
+    assert!(pov.contains("<0.0, 0.0, 3.0>, 1e-60 "), "{pov}");
 }
 
 #[test]
