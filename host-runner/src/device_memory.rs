@@ -122,6 +122,8 @@ pub(crate) struct DeviceMemory {
     pub(crate) stack_frame: usize,
     /// All of them.
     pub(crate) stack: usize,
+    /// What a cut-off adds to them: a factor a level.
+    pub(crate) cutoff_stack: usize,
 }
 
 impl DeviceMemory {
@@ -184,6 +186,7 @@ impl DeviceMemory {
             frame: size_of::<scanray::Frame>(),
             stack_frame: stack_frame.size,
             stack: stack_frame.pool(max_depth, word).size,
+            cutoff_stack: Layout::of::<T>().pool(max_depth, word).size,
         }
     }
 

@@ -46,6 +46,8 @@ struct Report {
     objects: usize,
     scalar: &'static str,
     max_depth: usize,
+    /// 0 without one.
+    cutoff: f64,
     /// Stages of the tracer.
     stages: Vec<&'static str>,
     /// Bytes, for pointers of 32 bits.
@@ -95,17 +97,24 @@ fn tell<T: HostScalar>(
     let Resolution { width, .. } = settings.resolution(scene.resolution);
     let memory = DeviceMemory::of(&scene, settings.max_depth);
     let needs = needs(&scene);
+    let cutoff = settings.knobs.cutoff;
+    let with_cutoff = if cutoff > 0.0 {
+        format!(".with_cutoff({cutoff:?})")
+    } else {
+        String::new()
+    };
     let pools_type = memory.pools_type(T::NAME);
     let report = Report {
         scene: source.name(),
         objects: scene.object_count(),
         scalar: T::NAME,
         max_depth: settings.max_depth,
+        cutoff,
         stages: needs.names().collect(),
         width,
         rows: rows(width),
         source: format!(
-            "let mut pools: {pools_type} = ScenePools::new();\nlet tracer = {};",
+            "let mut pools: {pools_type} = ScenePools::new();\nlet tracer = {}{with_cutoff};",
             memory.tracer_expression(settings.max_depth)
         ),
         pools_type,
@@ -182,6 +191,14 @@ impl Report {
             memory.stack,
             "one a depth, on the call stack while a pixel is traced",
         )?;
+        if self.cutoff > 0.0 {
+            write_line(
+                out,
+                "cut-off",
+                memory.cutoff_stack,
+                "more on the call stack: a factor a depth",
+            )?;
+        }
         write_line(out, "Frame", memory.frame, "to draw in instalments")?;
         for row in self.rows.iter().filter(|row| row.color == color) {
             let name = format!("row of {} {color}", self.width);

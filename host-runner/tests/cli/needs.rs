@@ -23,6 +23,22 @@ fn names_stages_sizes_and_a_line_for_firmware() {
 }
 
 #[test]
+fn a_cutoff_takes_stack_too() {
+    let folder = Folder::new();
+    folder.write("scene.txt", SMALL_SCENE);
+    let arguments = ["needs", "scene.txt", "--cutoff", "1/64", "--max-depth", "3"];
+    let said = String::from_utf8(folder.succeed(&arguments).stdout).unwrap();
+    // A length and three factors.
+    assert!(
+        said.contains("\ncut-off                            16  "),
+        "{said}"
+    );
+    assert!(said.contains(".with_cutoff(0.015625);\n"), "{said}");
+    let without = folder.succeed(&["needs", "scene.txt"]).stdout;
+    assert!(!String::from_utf8(without).unwrap().contains("cut-off"));
+}
+
+#[test]
 fn json_adds_up() {
     let folder = Folder::new();
     let run = folder.succeed(&["needs", &scene("default"), "--json"]);
