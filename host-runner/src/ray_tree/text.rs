@@ -92,7 +92,11 @@ pub(crate) fn write_rays<T: Scalar>(
     };
     line(
         "meets",
-        &format_args!("{}, {side}, at t = {}", names.object(hit.object), hit.t),
+        &format_args!(
+            "{}, {side}, at t = {}",
+            names.object(hit.object),
+            digits(hit.t)
+        ),
     )?;
     line("point", &vector(hit.point))?;
     line("normal", &vector(hit.normal))?;
@@ -178,10 +182,40 @@ impl<T: Scalar> Display for LightText<'_, T> {
 }
 
 fn vector<T: Scalar>(v: Vec3<T>) -> String {
-    format!("({}, {}, {})", v.x, v.y, v.z)
+    format!("({}, {}, {})", digits(v.x), digits(v.y), digits(v.z))
 }
 
 /// A colour in full: the fewest digits that read back to the same bits.
 pub(crate) fn color_digits<T: Scalar>(c: Color<T>) -> String {
-    format!("{} {} {}", c.r, c.g, c.b)
+    format!("{} {} {}", digits(c.r), digits(c.g), digits(c.b))
+}
+
+/// A number in full: the fewest digits that read back to the same bits, with an exponent if there would be many
+/// zeros.
+fn digits<T: Scalar>(number: T) -> String {
+    let size = number.to_f64().abs();
+    if size != 0.0 && !(1e-5..1e16).contains(&size) {
+        // The fewest digits of f32 are few enough for f64 to keep them.
+        let shortest = number.to_string();
+        shortest
+            .parse::<f64>()
+            .map_or(shortest, |number| format!("{number:e}"))
+    } else {
+        number.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_and_large_numbers_have_an_exponent() {
+        assert_eq!(digits(4.900_751_6e-17_f32), "4.9007516e-17");
+        assert_eq!(digits(-1e-6_f64), "-1e-6");
+        assert_eq!(digits(0.000_1_f32), "0.0001");
+        assert_eq!(digits(3e30_f32), "3e30");
+        assert_eq!(digits(-0.0_f32), "-0");
+        assert_eq!(digits(f64::INFINITY), "inf");
+    }
 }
