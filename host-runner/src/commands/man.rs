@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Command, CommandFactory};
 use clap_mangen::Man;
+use roff::{Roff, roman};
 
 use crate::cli::Cli;
 use crate::console::{print, say};
@@ -79,8 +80,16 @@ fn pages() -> Vec<(String, Vec<u8>)> {
     let commands = program.get_subcommands().cloned().collect::<Vec<_>>();
     let page = |name: String, command: Command| {
         let mut page = Vec::new();
+        let help = command.get_after_help().map(ToString::to_string);
+        let command = command
+            .after_help(None::<&str>)
+            .after_long_help(None::<&str>);
         // Writing to memory does not fail.
         let _ = Man::new(command).render(&mut page);
+        page.extend(
+            help.iter()
+                .flat_map(|help| sections(help).to_roff().into_bytes()),
+        );
         (name, page)
     };
     let of_commands = commands.into_iter().map(|command| {
@@ -91,4 +100,42 @@ fn pages() -> Vec<(String, Vec<u8>)> {
         .into_iter()
         .chain(of_commands)
         .collect()
+}
+
+/// The sections of what a help text says after the options: notes, exit codes, examples.
+fn sections(help: &str) -> Roff {
+    let (mut notes, mut status, mut examples) = (Roff::new(), Roff::new(), Roff::new());
+    for paragraph in help.split("\n\n") {
+        let (first, rest) = paragraph.split_once('\n').unwrap_or((paragraph, ""));
+        if first == "Examples:" {
+            as_it_is(&mut examples, rest.lines());
+        } else if let Some(codes) = paragraph.strip_prefix("Exit codes: ") {
+            status.text([roman(codes)]);
+        } else if first.starts_with(' ') {
+            as_it_is(&mut notes, paragraph.lines());
+        } else {
+            notes.control("PP", []);
+            notes.text([roman(paragraph)]);
+        }
+    }
+    let mut all = Roff::new();
+    for (title, section) in [
+        ("NOTES", notes),
+        ("EXIT STATUS", status),
+        ("EXAMPLES", examples),
+    ] {
+        if section != Roff::new() {
+            all.control("SH", [title]).extend([section]);
+        }
+    }
+    all
+}
+
+/// Lines that are not filled.
+fn as_it_is<'a>(page: &mut Roff, lines: impl Iterator<Item = &'a str>) {
+    page.control("PP", []).control("nf", []);
+    for line in lines {
+        page.text([roman(line.strip_prefix("  ").unwrap_or(line))]);
+    }
+    page.control("fi", []);
 }

@@ -52,7 +52,7 @@ fn every_command_has_a_page() {
         let name = path.file_stem().unwrap().to_str().unwrap();
         let page = std::fs::read_to_string(&path).unwrap();
         assert!(
-            page.contains(".SH NAME") && page.contains("Examples:"),
+            page.contains(".SH NAME") && page.contains(".SH EXAMPLES\n") && !page.contains("EXTRA"),
             "{name}: {page}"
         );
         if let Some(command) = name.strip_prefix("scanray-") {
@@ -64,6 +64,20 @@ fn every_command_has_a_page() {
     }
     assert!(count > 8, "{count}");
     assert_eq!(run.stderr, format!("{count} pages written to man1\n"));
+}
+
+#[test]
+fn examples_of_a_page_keep_their_lines() {
+    let folder = Folder::new();
+    let page = String::from_utf8(folder.succeed(&["man", "fmt"]).stdout).unwrap();
+    let (_, examples) = page.split_once(".SH EXAMPLES\n").unwrap();
+    let lines: Vec<_> = examples.lines().collect();
+    assert_eq!(lines[..2], [".PP", ".nf"]);
+    assert!(lines[2].starts_with("scanray fmt scene.txt "), "{examples}");
+    assert_eq!(lines.last(), Some(&".fi"));
+    for title in ["NOTES", "EXIT STATUS"] {
+        assert!(page.contains(title), "{title}: {page}");
+    }
 }
 
 #[test]
