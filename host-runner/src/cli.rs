@@ -9,6 +9,7 @@ use crate::commands::ask::AskArgs;
 use crate::commands::bake::BakeArgs;
 use crate::commands::completions::CompletionsArgs;
 use crate::commands::diff::DiffArgs;
+use crate::commands::example::ExampleArgs;
 use crate::commands::export::ExportArgs;
 use crate::commands::fmt::FmtArgs;
 use crate::commands::generate::GenerateArgs;
@@ -35,6 +36,7 @@ Without a command, the default scene is drawn into output.ppm.
 
 Examples:
   scanray                                  draw the default scene
+  scanray example > scene.txt              a scene to start from, its numbers explained
   scanray render scene.txt -o scene.png    draw a scene of yours into a PNG file
   scanray render -o tft.png --display st7789
                                            see it as a small colour display shows it
@@ -50,6 +52,7 @@ Examples:
   scanray report scene.txt                 what each setting costs and what it buys
   scanray generate spheres --count 10000 -o many.txt
                                            a large scene
+  scanray help example                     how a scene file is written
   scanray help render                      all that render can do
 
 Exit codes: 0 fine, 1 a difference (diff, fmt --check) or a figure beyond its bound (stability), 2 usage, 3 scene, 4 files."
@@ -92,6 +95,8 @@ pub(crate) enum Command {
     Tune(TuneArgs),
     /// Measure stiff and extreme cases: a table of figures and their bounds
     Stability(StabilityArgs),
+    /// Print a scene to start from, its numbers explained
+    Example(ExampleArgs),
     /// Rewrite scenes in canonical form, comments kept
     Fmt(FmtArgs),
     /// Write a scene as Rust source, for a `static` in a firmware's flash
@@ -137,6 +142,16 @@ fn with_hint(error: clap::Error) -> clap::Error {
         ErrorKind::InvalidSubcommand => word(ContextKind::InvalidSubcommand)
             .filter(|word| word.ends_with(".txt") || Path::new(word).exists())
             .map(|path| format!("{path} is no command; to draw it: scanray render {path}")),
+        // A negative column looks like an option.
+        ErrorKind::UnknownArgument if std::env::args().nth(1).is_some_and(|a| a == "pixel") => {
+            let is_negative = |argument: &String| {
+                let digits = argument.strip_prefix('-');
+                digits.is_some_and(|digits| digits.starts_with(|c: char| c.is_ascii_digit()))
+            };
+            std::env::args()
+                .find(is_negative)
+                .map(|place| format!("{place}: give column and row from 0 to 65535, such as 80,60"))
+        }
         ErrorKind::UnknownArgument
             if std::env::args().nth(1).is_some_and(|a| a.starts_with('-')) =>
         {

@@ -37,8 +37,8 @@ use std::process::ExitCode;
 use cli::{Cli, Command};
 use commands::report as report_command;
 use commands::{
-    ask, bake, completions, diff, export, fmt, generate, inspect, join, man, needs, pixel, render,
-    stability, tune, view,
+    ask, bake, completions, diff, example, export, fmt, generate, inspect, join, man, needs, pixel,
+    render, stability, tune, view,
 };
 
 fn main() -> ExitCode {
@@ -54,6 +54,7 @@ fn main() -> ExitCode {
         Command::Pixel(args) => pixel::run(&args),
         Command::Diff(args) => diff::run(&args),
         Command::Fmt(args) => fmt::run(&args),
+        Command::Example(args) => example::run(&args),
         Command::Export(args) => export::run(&args),
         Command::Ask(args) => ask::run(&args),
         Command::Stability(args) => stability::run(&args),

@@ -1,6 +1,6 @@
 //! Words of the command line that several commands understand.
 
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 use std::str::FromStr;
 
 use clap::ValueEnum;
@@ -120,6 +120,22 @@ pub(crate) fn centiseconds(word: &str) -> Result<u16, String> {
             "give tens of milliseconds from 20 to 60000; viewers show shorter ones too long"
                 .to_owned()
         })
+}
+
+/// Whole numbers of a range.
+pub(crate) fn whole<N: TryFrom<u64> + 'static>(
+    range: RangeInclusive<u64>,
+) -> impl Fn(&str) -> Result<N, String> + Clone {
+    move |word| {
+        word.parse()
+            .ok()
+            .filter(|number| range.contains(number))
+            .and_then(|number| N::try_from(number).ok())
+            .ok_or_else(|| {
+                let (least, most) = (range.start(), range.end());
+                format!("give a whole number from {least} to {most}")
+            })
+    }
 }
 
 /// A maximum depth that there is a stack for.

@@ -11,6 +11,7 @@ use crate::compare::{Comparison, DEFAULT_PIXELS_PER_DEGREE, flip_picture, level_
 use crate::console::{print, say};
 use crate::failure::Failure;
 use crate::image::{self, Image};
+use crate::options::whole;
 use crate::places::single_place;
 
 /// The command line.
@@ -53,6 +54,7 @@ pub(crate) struct DiffArgs {
         long,
         value_name = "N",
         default_value_t = 0,
+        value_parser = whole::<u8>(0..=255),
         allow_negative_numbers = true
     )]
     tolerance: u8,

@@ -4,6 +4,7 @@ pub(crate) mod ask;
 pub(crate) mod bake;
 pub(crate) mod completions;
 pub(crate) mod diff;
+pub(crate) mod example;
 pub(crate) mod export;
 pub(crate) mod fmt;
 pub(crate) mod generate;

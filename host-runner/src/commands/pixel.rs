@@ -69,7 +69,7 @@ impl FromStr for PixelPlace {
                     y: y.parse().ok()?,
                 })
             })
-            .ok_or_else(|| "give column and row, such as 80,60".to_owned())
+            .ok_or_else(|| "give column and row from 0 to 65535, such as 80,60".to_owned())
     }
 }
 

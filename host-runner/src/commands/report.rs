@@ -10,7 +10,7 @@ use scanray::Resolution;
 use crate::console::say;
 use crate::drawing::Workers;
 use crate::failure::Failure;
-use crate::options::Size;
+use crate::options::{Size, whole};
 use crate::output::Place;
 use crate::progress::Progress;
 use crate::report::{self, BothScalars, Document, Sweep};
@@ -44,7 +44,7 @@ pub(crate) struct ReportArgs {
     only: Vec<Kind>,
 
     /// Threads that draw [default: one for each core]; host time is that of one
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=1024), allow_negative_numbers = true)]
     threads: Option<u16>,
 }
 

@@ -13,7 +13,7 @@ use crate::console::print;
 use crate::cost::Core;
 use crate::drawing::Workers;
 use crate::failure::Failure;
-use crate::options::{ColorName, Size, name_of};
+use crate::options::{ColorName, Size, name_of, whole};
 use crate::report::{BothScalars, Budget, Choice, Settings, Sweep, Tuned, tune};
 use crate::scene_file::SceneSource;
 
@@ -64,11 +64,11 @@ pub(crate) struct TuneArgs {
     dither: bool,
 
     /// Wait states of the flash: how many cycles each read takes longer
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..=32))]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u32>(0..=32), allow_negative_numbers = true)]
     wait_states: u32,
 
     /// Threads that draw [default: one for each core of this machine]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=1024), allow_negative_numbers = true)]
     threads: Option<u16>,
 
     /// Print JSON

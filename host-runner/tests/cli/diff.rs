@@ -146,12 +146,12 @@ fn wrong_input_is_told() {
         (
             2,
             &["diff", "a.ppm", "a.ppm", "--tolerance", "256"],
-            "0..=255",
+            "a whole number from 0 to 255",
         ),
         (
             2,
             &["diff", "a.ppm", "a.ppm", "--tolerance", "-1"],
-            "0..=255",
+            "a whole number from 0 to 255",
         ),
         (
             2,

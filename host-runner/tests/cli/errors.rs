@@ -19,7 +19,32 @@ fn usage_errors_say_what_to_do() {
         (&["render", "--rows", "5..5"], "such as 0..100"),
         (&["render", "--rows", "0..601"], "the most is 0..600"),
         (&["render", "--steps", "0..2"], "--turntable <N>"),
-        (&["render", "--turntable", "0"], "1..=65535"),
+        (
+            &["render", "--turntable", "0"],
+            "a whole number from 1 to 65535",
+        ),
+        (
+            &["render", "--turntable", "x"],
+            "a whole number from 1 to 65535",
+        ),
+        (&["render", "--rows", "-3..4"], "such as 0..100"),
+        (
+            &["render", "--turntable", "9", "--steps", "-1..2"],
+            "such as 0..100",
+        ),
+        (
+            &["pixel", &default, "-1,0"],
+            "-1,0: give column and row from 0 to 65535",
+        ),
+        (&["pixel", &default, "--1,0"], "unexpected argument"),
+        (
+            &["diff", "a.png", "b.png", "--tolerance", "x"],
+            "a whole number from 0 to 255",
+        ),
+        (
+            &["render", "--threads", "x"],
+            "a whole number from 1 to 1024",
+        ),
         (
             &["render", "--turntable", "9", "--steps", "8..10"],
             "--steps 8..10: the turntable has 9 steps, so the most is 0..9",
@@ -36,7 +61,10 @@ fn usage_errors_say_what_to_do() {
             &["render", "--rows", "0..9", "-o", "a.gif"],
             "draw parts into .ppm or .png files",
         ),
-        (&["render", "--threads", "0"], "1..=1024"),
+        (
+            &["render", "--threads", "0"],
+            "a whole number from 1 to 1024",
+        ),
         (&["render", "--color", "rgb"], "possible values: rgb888, "),
         (&["render", "--scalar", "f16"], "possible values: f32, f64"),
         (
@@ -214,6 +242,27 @@ fn every_rejection_is_shown_at_its_place() {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     assert!(count > 50, "{count}");
+}
+
+#[test]
+fn marks_of_byte_order_are_named_with_a_remedy() {
+    let folder = Folder::new();
+    let utf16: Vec<u8> = [0xFEFF]
+        .into_iter()
+        .chain(SMALL_SCENE.encode_utf16())
+        .flat_map(u16::to_le_bytes)
+        .collect();
+    for (text, words) in [
+        (
+            format!("\u{feff}{SMALL_SCENE}").into_bytes(),
+            "byte-order mark (BOM); save it as UTF-8 without one",
+        ),
+        (utf16, "the file is UTF-16; save it as UTF-8"),
+    ] {
+        folder.write("scene.txt", text);
+        let said = folder.fail(3, &["inspect", "scene.txt"]);
+        assert!(said.contains(words), "{said}");
+    }
 }
 
 /// Tabs before a place in a file.

@@ -88,6 +88,8 @@ fn every_example_of_every_command_works() {
                 );
                 continue;
             }
+            // An example may have written another.
+            folder.write("scene.txt", SMALL_SCENE);
             let run = Command::new("sh")
                 .args(["-c", &example])
                 .current_dir(folder.path(""))

@@ -5,6 +5,7 @@ mod bake;
 mod diff;
 mod displays;
 mod errors;
+mod example;
 mod examples;
 mod export;
 mod files;

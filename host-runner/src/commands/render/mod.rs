@@ -13,7 +13,7 @@ use crate::displays;
 use crate::drawing::Workers;
 use crate::failure::Failure;
 use crate::image::ImageFormat;
-use crate::options::{RangeOption, ScalarName, axis, centiseconds};
+use crate::options::{RangeOption, ScalarName, axis, centiseconds, whole};
 use crate::output::Place;
 use crate::picture_args::PictureArgs;
 use crate::places::{PictureFile, Steps, places};
@@ -54,16 +54,21 @@ pub(crate) struct RenderArgs {
 
     /// Draw only rows A up to, but not including, B; the file holds nothing else, and says so in a
     /// comment, for `scanray join`
-    #[arg(long, value_name = "A..B")]
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true)]
     rows: Option<RangeOption>,
 
     /// Draw the scene from all around, in N steps: the camera circles it to the right, the light stays
     /// with the scene. A GIF file holds all pictures, PPM and PNG files get numbers
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=65_535), allow_negative_numbers = true)]
     turntable: Option<u16>,
 
     /// Draw only steps A up to, but not including, B of the turntable
-    #[arg(long, value_name = "A..B", requires = "turntable")]
+    #[arg(
+        long,
+        value_name = "A..B",
+        requires = "turntable",
+        allow_hyphen_values = true
+    )]
     steps: Option<RangeOption>,
 
     /// The vertical axis that the camera circles [default: through the middle of what is in view]
@@ -87,7 +92,7 @@ pub(crate) struct RenderArgs {
     delay: u16,
 
     /// Threads that draw [default: one for each core]; the picture is the same for any number
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=1024), allow_negative_numbers = true)]
     threads: Option<u16>,
 
     /// Print time, rays, intersection tests and pools as JSON, one line for each scene

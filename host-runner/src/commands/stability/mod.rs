@@ -14,6 +14,7 @@ use scanray_stability::pictures::{self, Pictures, Telling};
 use crate::console::{print, say};
 use crate::failure::Failure;
 use crate::image::{self, Image, ImageFormat};
+use crate::options::whole;
 use crate::output::Place;
 use report::{Measured, Shown};
 
@@ -31,7 +32,7 @@ Examples:
 Exit codes: 1 a figure exceeds its bound.")]
 pub(crate) struct StabilityArgs {
     /// Numbers of cases; all if there are none
-    #[arg(value_name = "CASE", value_parser = clap::value_parser!(u8).range(1..=69))]
+    #[arg(value_name = "CASE", value_parser = whole::<u8>(1..=69), allow_negative_numbers = true)]
     cases: Vec<u8>,
 
     /// Compare the scenes at 160x120 instead of 800x600
