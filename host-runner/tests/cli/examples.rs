@@ -88,8 +88,6 @@ fn every_example_of_every_command_works() {
                 );
                 continue;
             }
-            // An example may have written another.
-            folder.write("scene.txt", SMALL_SCENE);
             let run = Command::new("sh")
                 .args(["-c", &example])
                 .current_dir(folder.path(""))
@@ -98,6 +96,10 @@ fn every_example_of_every_command_works() {
                 .unwrap();
             let said = String::from_utf8_lossy(&run.stderr);
             assert!(run.status.success(), "{example}: {said}");
+            if example.ends_with("> scene.txt") {
+                // The others draw the small one.
+                folder.write("scene.txt", SMALL_SCENE);
+            }
         }
     }
 }
