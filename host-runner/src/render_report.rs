@@ -107,7 +107,9 @@ impl RenderReport {
         };
         self.work = Counts(*work);
         self.predicted_instructions_per_pixel = (self.scalar == f32::NAME)
-            .then(|| Instructions(Core::ALL.map(|core| MODEL.instructions_per_pixel(work, core))));
+            .then(|| MODEL.instructions_per_pixel(work))
+            .flatten()
+            .map(Instructions);
     }
 
     /// Writes a line of JSON.

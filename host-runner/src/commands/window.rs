@@ -17,7 +17,7 @@ use embedded_graphics_simulator::{
 use scanray::{Picture, Quantizer, Resolution, Scene};
 
 use crate::console::{print, say};
-use crate::cost::{Core, MODEL};
+use crate::cost::{Core, MODEL, no_prediction};
 use crate::displays;
 use crate::drawing::Workers;
 use crate::failure::Failure;
@@ -208,10 +208,13 @@ impl WindowArgs {
         let workers = Workers::new(None)?;
         let time = |y: u16| {
             let work = tracer.count_work(y..y + 1, &workers);
-            let cycles = width * MODEL.instructions_per_pixel(&work, core);
-            Duration::from_secs_f64((cycles / (clock * 1e6)).max(0.0)).min(LONGEST_ROW)
+            let instructions = MODEL
+                .instructions_per_pixel(&work)
+                .ok_or_else(no_prediction)?;
+            let cycles = width * instructions[core as usize];
+            Ok(Duration::from_secs_f64((cycles / (clock * 1e6)).max(0.0)).min(LONGEST_ROW))
         };
-        Ok((0..resolution.height).map(time).collect())
+        (0..resolution.height).map(time).collect()
     }
 }
 

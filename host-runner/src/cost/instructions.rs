@@ -74,8 +74,13 @@ impl Model {
         Some(Self { terms })
     }
 
-    /// Instructions a pixel.
-    pub(crate) fn instructions_per_pixel(&self, work: &Work, core: Core) -> f64 {
+    /// Instructions a pixel on each core; `None` where the tracer walked a tree, whose cost is not among the
+    /// terms.
+    pub(crate) fn instructions_per_pixel(&self, work: &Work) -> Option<[f64; Core::ALL.len()]> {
+        (work.box_tests == 0).then(|| Core::ALL.map(|core| self.sum(work, core)))
+    }
+
+    fn sum(&self, work: &Work, core: Core) -> f64 {
         let sum: f64 = self
             .terms
             .iter()
@@ -109,8 +114,8 @@ mod tests {
             lit: 3,
             ..Default::default()
         };
-        let predicted = Core::ALL.map(|core| model.instructions_per_pixel(&work, core));
-        assert_eq!(predicted, [5.0, 50.0, 500.0]);
+        let predicted = model.instructions_per_pixel(&work);
+        assert_eq!(predicted, Some([5.0, 50.0, 500.0]));
         assert_eq!(Model::parse("term M4F M3 M0\nlit 1 x 2\n"), None);
     }
 }

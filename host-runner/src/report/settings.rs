@@ -64,9 +64,10 @@ impl Settings {
     /// Samples at the edges that adaptive sampling finds.
     pub(crate) const ADAPTIVE_SAMPLES: usize = 16;
 
-    /// Whether both show their pictures on the same kind of display.
+    /// Whether both show their pictures on the same kind of display, in the same way: an error counted in levels
+    /// says nothing about dither.
     pub(crate) fn same_display(&self, other: &Self) -> bool {
-        self.color == other.color
+        self.color == other.color && self.dither == other.dither
     }
 }
 
@@ -106,11 +107,18 @@ impl fmt::Display for Settings {
 
 impl Settings {
     /// The names of what can be set, for tables.
-    pub(crate) const FIELDS: [&'static str; 5] =
-        ["scalar", "max_depth", "power", "color", "dither"];
+    pub(crate) const FIELDS: [&'static str; 7] = [
+        "scalar",
+        "max_depth",
+        "cutoff",
+        "sampling",
+        "power",
+        "color",
+        "dither",
+    ];
 
     /// What is set, in the order of [`Settings::FIELDS`].
-    pub(crate) fn words(&self) -> [String; 7] {
+    pub(crate) fn words(&self) -> [String; Self::FIELDS.len()] {
         [
             name_of(self.scalar),
             self.max_depth.to_string(),

@@ -12,7 +12,7 @@ use super::settings::{Knob, Settings, knobs};
 use super::timing::HostTime;
 use super::tracing::ReportTracer;
 use crate::compare::{Comparison, DEFAULT_PIXELS_PER_DEGREE};
-use crate::cost::{Core, MODEL, Work};
+use crate::cost::{Core, MODEL, Work, no_prediction};
 use crate::drawing::Workers;
 use crate::failure::Failure;
 use crate::image::Image;
@@ -143,7 +143,8 @@ impl<'a> Sweep<'a> {
         let shown = image(self.resolution, &drawn.shown);
         let flip = Comparison::of(&reference, &shown, DEFAULT_PIXELS_PER_DEGREE).flip();
         let instructions = (settings.scalar == ScalarName::F32)
-            .then(|| Core::ALL.map(|core| MODEL.instructions_per_pixel(&work, core)));
+            .then(|| MODEL.instructions_per_pixel(&work))
+            .flatten();
         Ok(Configuration {
             name: settings.to_string(),
             settings: *settings,
@@ -168,10 +169,13 @@ impl<'a> Sweep<'a> {
     pub(crate) fn estimate(&self, settings: &Settings, core: Core) -> Result<Estimate, Failure> {
         let tracer = self.tracer(self.scene.single(settings.power), settings)?;
         let work = tracer.work(settings.sampling, self.workers);
+        let instructions = MODEL
+            .instructions_per_pixel(&work)
+            .ok_or_else(no_prediction)?;
         let colors = tracer.colors(settings.sampling, self.workers);
         let on_display = self.on_display(&self.shown(&colors, settings));
         Ok(Estimate {
-            instructions: MODEL.instructions_per_pixel(&work, core) * work.pixels as f64,
+            instructions: instructions[core as usize] * work.pixels as f64,
             rmse: Error::between(&on_display, &self.references.r2).rmse,
             work,
         })

@@ -36,6 +36,24 @@ fn writes_page_markdown_csv_and_json() {
     let configurations = scenes[0]["configurations"].as_array().unwrap().len();
     assert_eq!(csv.lines().count(), 1 + 2 * configurations);
     assert!(width > 20);
+    // Names of several settings are quoted, for their commas.
+    for record in csv.lines().filter(|line| !line.contains('"')) {
+        assert_eq!(record.split(',').count(), width, "{record}");
+    }
+    let place = |name| {
+        csv.lines()
+            .next()?
+            .split(',')
+            .position(|field| field == name)
+    };
+    let depth_1 = csv.lines().find(|line| line.starts_with("a,depth 1,"));
+    let value = |name| depth_1?.split(',').nth(place(name)?);
+    assert_eq!(
+        ["max_depth", "cutoff", "power", "color", "dither"].map(value),
+        ["1", "0", "squaring", "rgb888", "false"].map(Some)
+    );
+    let settings = &scenes[0]["configurations"][0]["settings"];
+    assert_eq!(settings.as_object().unwrap().len(), 7);
 
     let markdown = text("report.md");
     let page = text("index.html");
