@@ -463,8 +463,10 @@ impl<T: Scalar> PoolsMut<'_, T> {
         }
         let spheres = (0..scene.spheres.len()).map(|index| TreeEntry::sphere(index as u32));
         let triangles = (0..scene.triangles.len()).map(|index| TreeEntry::triangle(index as u32));
-        // There is room for all.
-        room.entries.extend(spheres.chain(triangles));
+        for entry in spheres.chain(triangles) {
+            // There is room for all. `extend` could panic, as far as the compiler knows.
+            let _ = room.entries.push(entry);
+        }
         build(&scene, room.entries, room.nodes);
     }
 
