@@ -11,7 +11,7 @@ use scanray::ScenePools;
 fn main() {
     let path = env::var("SCANRAY_SCENE").unwrap_or_else(|_| "../scenes/default.txt".into());
     let text = fs::read(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
-    let mut pools = ScenePools::<f32, 1024, 1024, 1024, 1024>::new();
+    let mut pools = ScenePools::<f32, 1024, 1024, 1024, 1024, 1, 48, 2048>::new();
     if let Err(error) = pools.parse(&text) {
         panic!("{path}: {error}");
     }

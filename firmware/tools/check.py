@@ -36,6 +36,8 @@ LIMITS = {("default", "flash"): 7936, ("default", "stack"): 680, ("default", "ra
           ("stage-1-diffuse-spheres", "flash"): 2304}
 # Stages that the default scene is also measured without.
 STAGES = ("SHADOWS", "SPECULAR", "REFLECTION", "REFRACTION", "BENDING", "PLANES", "TRIANGLES")
+# Scenes with a tree -> triangles, as in `scanray generate icosphere --count`.
+LARGE_SCENES = {"boulder": 980, "gem": 80}
 
 
 class Report:
@@ -112,8 +114,9 @@ class Measured:
 class Board:
     """The checks of one board that counts."""
 
-    def __init__(self, name, builder, report, expected):
+    def __init__(self, name, builder, report, expected, large):
         self.name, self.builder, self.report, self.expected = name, builder, report, expected
+        self.large = large  # name -> file
         self.crcs = {}      # scene -> CRC
         self.measured = {}  # (row of the cost table, profile) -> Measured
         self.cycles = {}    # (row, profile, core that the compiler was told) -> (instructions, cycles), M4F only
@@ -129,12 +132,17 @@ class Board:
             for profile in BOARDS[self.name][3]:
                 check(f"{column} {scene} ({profile})", lambda: self.picture(scene, path, scene, profile))
         if self.name == "mps2-an386":
+            check(f"{column} boulder", lambda: self.picture("boulder", self.large["boulder"], "boulder", "size"))
+            check(f"{column} boulder without tree",
+                  lambda: self.picture("boulder", self.large["boulder"], "boulder without tree", "size", "TREE"))
+            check(f"{column} gem, parsed and its tree built on the board", self.parsed_tree)
             check(f"{column} a stage that is left out is named by the compiler", self.missing_stage)
             for profile in BOARDS[self.name][3]:
                 check(f"{column} default for a core without a name ({profile})", lambda: self.unnamed_core(profile))
             for stage in STAGES:
                 row = f"default without {stage.lower()}"
                 check(f"{column} {row}", lambda: self.picture("default", "../scenes/default.txt", row, "size", stage))
+        check(f"{column} default, cut-off 1/256", self.cutoff)
         check(f"{column} harness alone", self.harness)
         check(f"{column} default, parsed on the board", self.parsed)
         check(f"{column} messages for bad scenes", self.rejected)
@@ -195,7 +203,8 @@ class Board:
             self.cycles[row, profile, "cortex-m4"] = instructions, _ = profiler.cost(image)
             if abs(instructions - measured.instructions) > 1:
                 raise Failed(f"the profiler counts {instructions:.1f} instructions a pixel, the board {measured.instructions:.1f}")
-        if without == "NONE":
+        # The tree is for speed alone.
+        if without in ("NONE", "TREE"):
             self.crcs[scene] = measured.crc
             if measured.crc != self.expected.get(scene):
                 raise Failed(f"CRC-32 {measured.crc}, the host's is {self.expected.get(scene)}")
@@ -210,6 +219,20 @@ class Board:
             raise Failed(f"CRC-32 {crc}, the host's is {self.expected['default']}")
         self.cycles["default", profile, "generic"] = instructions, cycles = profiler.cost(image)
         return f"{crc}, {instructions:,.0f} instructions and about {cycles:,.0f} cycles a pixel"
+
+    def cutoff(self):
+        return self.compared("cutoff", "default, cut-off 1/256", "cutoff", SCANRAY_CUTOFF="1.0 / 256.0")
+
+    def parsed_tree(self):
+        return self.compared("parsed_tree", "gem, parsed, with tree", "gem", SCANRAY_SCENE=self.large["gem"])
+
+    def compared(self, program, row, expected, **variables):
+        """A program that draws what the host expects by this name."""
+        image = self.builder.image(self.name, program, program, **variables)
+        self.measured[row, "size"] = measured = Measured(self.name, image, run(image))
+        if measured.crc != self.expected[expected]:
+            raise Failed(f"CRC-32 {measured.crc}, the host's is {self.expected[expected]}")
+        return f"{measured.crc}, {measured}"
 
     def harness(self):
         image = self.builder.image(self.name, "harness", "harness")
@@ -255,6 +278,15 @@ def example_checks(builder, report, expected):
             raise Failed(f"the board printed: {printed}")
         return "fed while drawing, it resets the board afterwards"
 
+    def preview():
+        printed = run(image("mps2-an386", "preview"))
+        crc(printed)
+        rays = [int(values(printed)[f"rays until the {what} are drawn"])
+                for what in ("blocks of 4x4", "blocks of 2x2", "pixels")]
+        if not (rays[0] * 12 < rays[2] and rays[0] < rays[1] < rays[2]):
+            raise Failed(f"the passes end after {rays} rays")
+        return f"the coarse picture is there after {rays[0] / rays[2]:.1%} of the rays"
+
     def double_row():
         printed = run(image("mps2-an386", "double_row"))
         crc(printed)
@@ -283,7 +315,7 @@ def example_checks(builder, report, expected):
         crc(run(image("virt", "two_harts")))
         return "even and odd rows, the same bits"
 
-    for example in (watchdog, double_row, async_rows, serial_scene, two_harts):
+    for example in (watchdog, preview, double_row, async_rows, serial_scene, two_harts):
         report.check(f"example {example.__name__}", example)
 
 
@@ -343,8 +375,15 @@ def check_all(builder, report, bless):
     report.check("host tests of the drivers", builder.unit_tests)
     expected = dict(zip(scenes(), host("hash", *scenes().values()).split()))
     expected["rejected"] = host("rejected")
+    expected["cutoff"] = host("cutoff", "../scenes/default.txt").strip()
 
-    boards = [Board(name, builder, report, expected) for name, (_, _, rate, _) in BOARDS.items() if rate]
+    program = report.check("host program", instruction_model.host_program)
+    if program is None:
+        return
+    large = large_scenes(program, builder.images)
+    expected |= zip(large, host("hash", *large.values()).split())
+
+    boards = [Board(name, builder, report, expected, large) for name, (_, _, rate, _) in BOARDS.items() if rate]
     # More than there are cores, as one at most builds; the slowest boards first.
     with concurrent.futures.ThreadPoolExecutor(max_workers=(os.cpu_count() or 1) + 2) as workers:
         work = [workers.submit(board.check) for board in reversed(boards)]
@@ -372,16 +411,23 @@ def check_all(builder, report, bless):
     print(cycles, end="")
     report.check("cycles", lambda: compare_costs(f"cycles-{compiler()}.txt", cycles, bless))
     report.check("README", lambda: compare_readme(bless))
-    model_checks(report, boards)
+    model_checks(report, boards, program)
     for row, figure in LIMITS:
         report.check(f"M4F {row} {figure}", lambda: limit_check(boards[0], row, figure))
 
 
-def model_checks(report, boards):
+def large_scenes(program, folder):
+    """Scenes with a tree, generated: name -> file."""
+    paths = {}
+    for name, triangles in LARGE_SCENES.items():
+        paths[name] = os.path.join(os.path.abspath(folder), f"{name}.txt")
+        subprocess.run([program, "generate", "icosphere", "--count", str(triangles), "-o", paths[name]], check=True,
+                       capture_output=True)
+    return paths
+
+
+def model_checks(report, boards, program):
     """The host's prediction of instructions against what the boards counted: a line for each scene and board."""
-    program = report.check("host program", instruction_model.host_program)
-    if program is None:
-        return
     for scene, path in scenes().items():
         predicted = instruction_model.figures(program, path, (160, 120))["predicted_instructions_per_pixel"]
         for board in boards:

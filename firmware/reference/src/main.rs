@@ -1,13 +1,14 @@
 //! What the boards must draw and print, from the host:
 //!
-//! * `reference hash SCENE…`: the CRC-32 of each scene's picture, a line each;
+//! * `reference hash SCENE…`: the CRC-32 of each scene's picture, a line each, every object tested for every ray;
+//! * `reference cutoff SCENE`: the CRC-32 of its picture without the rays that hardly show, by the cut-off 1/256;
 //! * `reference oled SCENE`: the picture on the OLED, dithered, as a text PGM;
 //! * `reference rejected`: the messages for the bad scenes.
 
 use std::{env, error::Error, fs, io::Write as _};
 
 use embedded_graphics::pixelcolor::{Gray4, GrayColor, Rgb888, RgbColor};
-use scanray::{Exact, Picture, Resolution, ScenePools, Tracer};
+use scanray::{Exact, Picture, PixelSource, Resolution, ScenePools, Tracer};
 
 #[path = "../../src/bad_scenes.rs"]
 mod bad_scenes;
@@ -22,12 +23,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = env::args().skip(1).collect();
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         ["hash", ref scenes @ ..] => scenes.iter().try_for_each(|path| {
-            println!("{:08x}", hash(path)?);
+            println!("{:08x}", hash(path, None)?);
             Ok(())
         }),
+        ["cutoff", scene] => {
+            println!("{:08x}", hash(scene, Some(1.0 / 256.0))?);
+            Ok(())
+        }
         ["oled", scene] => oled(scene),
         ["rejected"] => rejected(),
-        _ => Err("reference hash SCENE… | oled SCENE | rejected".into()),
+        _ => Err("reference hash SCENE… | cutoff SCENE | oled SCENE | rejected".into()),
     }
 }
 
@@ -40,17 +45,24 @@ fn parse(path: &str) -> Result<Box<Pools>, Box<dyn Error>> {
     Ok(pools)
 }
 
-fn hash(path: &str) -> Result<u32, Box<dyn Error>> {
+fn hash(path: &str, cutoff: Option<f32>) -> Result<u32, Box<dyn Error>> {
     let pools = parse(path)?;
     let resolution = Resolution {
         width: 160,
         height: 120,
     };
     let tracer = Tracer::new(pools.as_scene()).with_resolution(resolution);
-    let picture: Picture<_, Exact<Rgb888>> = Picture::new(&tracer);
+    Ok(match cutoff {
+        Some(cutoff) => hash_of(tracer.with_cutoff(cutoff)),
+        None => hash_of(tracer),
+    })
+}
+
+fn hash_of(source: impl PixelSource) -> u32 {
+    let picture: Picture<_, Exact<Rgb888>> = Picture::new(source);
     let mut row = [Rgb888::BLACK; 160];
     let mut crc = crc32::Crc32::new();
-    for y in 0..resolution.height {
+    for y in 0..picture.resolution().height {
         picture.row(0, y, &mut row);
         for pixel in row {
             for byte in [pixel.r(), pixel.g(), pixel.b()] {
@@ -58,7 +70,7 @@ fn hash(path: &str) -> Result<u32, Box<dyn Error>> {
             }
         }
     }
-    Ok(crc.value())
+    crc.value()
 }
 
 fn oled(path: &str) -> Result<(), Box<dyn Error>> {
