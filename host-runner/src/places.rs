@@ -104,6 +104,29 @@ pub(crate) fn single_place(output: &Path) -> Result<(Place, ImageFormat), Failur
     Ok((Place::file(output)?, format.unwrap_or(ImageFormat::Ppm)))
 }
 
+/// Refuses an output that is also an input: what the input held would be lost.
+///
+/// # Errors
+///
+/// [`Failure::Usage`].
+pub(crate) fn refuse_input_as_output<'a>(
+    output: &Path,
+    inputs: impl IntoIterator<Item = &'a PathBuf>,
+) -> Result<(), Failure> {
+    let Ok(there) = output.canonicalize() else {
+        return Ok(());
+    };
+    for input in inputs {
+        if there.is_file() && input.canonicalize().is_ok_and(|input| input == there) {
+            return Err(Failure::Usage(format!(
+                "-o {} would overwrite what is read; name another file",
+                output.display()
+            )));
+        }
+    }
+    Ok(())
+}
+
 /// The files of one scene, where `path` is that of its only picture.
 ///
 /// # Errors

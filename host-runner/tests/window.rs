@@ -265,7 +265,7 @@ fn wrong_use_is_told() {
     ] {
         let output = Command::new(env!("CARGO_BIN_EXE_scanray"))
             .args(arguments)
-            .env("SDL_VIDEODRIVER", "x11")
+            .env_remove("SDL_VIDEODRIVER")
             .env("DISPLAY", ":12345")
             .env_remove("WAYLAND_DISPLAY")
             .output()

@@ -12,7 +12,7 @@ use crate::console::{print, say};
 use crate::failure::Failure;
 use crate::image::{self, Image};
 use crate::options::whole;
-use crate::places::single_place;
+use crate::places::{refuse_input_as_output, single_place};
 
 /// The command line.
 #[derive(Args, Debug)]
@@ -127,7 +127,10 @@ struct Measures {
 /// [`Failure`].
 pub(crate) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     let place = match &args.output {
-        Some(output) => Some(single_place(output)?),
+        Some(output) => {
+            refuse_input_as_output(output, [&args.reference, &args.test])?;
+            Some(single_place(output)?)
+        }
         None => None,
     };
     let is_to_stdout = args

@@ -14,7 +14,7 @@ use crate::image::{self, Animation, Image, ImageFormat};
 use crate::options::centiseconds;
 use crate::output::Place;
 use crate::part::PartRecord;
-use crate::places::{PictureFile, Steps, files, single_place};
+use crate::places::{PictureFile, Steps, files, refuse_input_as_output, single_place};
 use crate::progress::Progress;
 
 /// The command line.
@@ -62,6 +62,7 @@ struct Part<'a> {
 ///
 /// [`Failure::Usage`] for parts that do not fit together, and [`Failure::Files`].
 pub(crate) fn run(args: &JoinArgs) -> Result<ExitCode, Failure> {
+    refuse_input_as_output(&args.output, &args.parts)?;
     let mut parts = args
         .parts
         .iter()

@@ -272,6 +272,9 @@ fn open(
     settings: &embedded_graphics_simulator::OutputSettings,
     display: &SimulatorDisplay<Rgb888>,
 ) -> Result<Window, Failure> {
+    if !has_screen() {
+        return Err(no_display());
+    }
     let hook = panic::take_hook();
     panic::set_hook(Box::new(|_| {}));
     let window = panic::catch_unwind(AssertUnwindSafe(|| {
@@ -280,13 +283,24 @@ fn open(
         window
     }));
     panic::set_hook(hook);
-    window.map_err(|_| {
-        Failure::Usage(
-            "cannot open a window: there is no graphical display here (is DISPLAY set?), or the picture is \
-             too large for it; scanray view shows it in the terminal"
-                .to_owned(),
-        )
-    })
+    window.map_err(|_| no_display())
+}
+
+/// Whether SDL shows windows to somebody. Without a display it takes a driver that shows them to nobody, which
+/// is wanted only where the user has named it.
+fn has_screen() -> bool {
+    std::env::var_os("SDL_VIDEODRIVER").is_some_and(|name| !name.is_empty())
+        || sdl2::init().and_then(|sdl| sdl.video()).is_ok_and(|video| {
+            !["offscreen", "dummy", "evdev"].contains(&video.current_video_driver())
+        })
+}
+
+fn no_display() -> Failure {
+    Failure::Usage(
+        "cannot open a window: there is no graphical display here (is DISPLAY set?), or the picture is \
+         too large for it; scanray view shows it in the terminal"
+            .to_owned(),
+    )
 }
 
 #[cfg(test)]

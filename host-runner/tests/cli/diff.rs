@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::program::{Folder, Picture, scene};
+use crate::program::{Folder, Picture, SMALL_SCENE, scene};
 
 /// A P6 file of 4×2 pixels, all black but the last, whose green is this.
 fn picture(green: u8) -> Vec<u8> {
@@ -193,4 +193,19 @@ fn wrong_input_is_told() {
         assert!(said.contains(words), "{arguments:?}: {said}");
     }
     assert_eq!(folder.names(), ["a.ppm", "cut.ppm", "text.png", "wide.ppm"]);
+}
+
+#[test]
+fn the_output_is_never_an_input() {
+    let folder = Folder::new();
+    folder.write("scene.txt", SMALL_SCENE);
+    folder.succeed(&["render", "scene.txt", "-o", "a.png"]);
+    folder.succeed(&["render", "scene.txt", "-o", "b.png"]);
+    folder.succeed(&["render", "scene.txt", "-o", "part.ppm", "--rows", "0..6"]);
+    let before = folder.read("b.png");
+    let said = folder.fail(2, &["diff", "a.png", "b.png", "-o", "./b.png"]);
+    assert!(said.contains("overwrite"), "{said}");
+    assert!(folder.read("b.png") == before);
+    let said = folder.fail(2, &["join", "part.ppm", "-o", "part.ppm"]);
+    assert!(said.contains("overwrite"), "{said}");
 }

@@ -212,7 +212,7 @@ fn script(name: &str) -> String {
     let script = block.unwrap().split("```").next().unwrap();
     let scale = [
         ("width=3840", "width=64"),
-        ("height=2160", "height=40"),
+        ("height=2160", "height=38"),
         ("rows=270", "rows=5"),
     ];
     let small = |script: String, (from, to): (&str, &str)| script.replace(from, to);
@@ -256,7 +256,7 @@ fn the_job_array_draws_the_picture_of_one_machine() {
         );
     }
     run_script(&folder, "scanray join part-*.ppm -o picture.png", &[]);
-    folder.succeed(&["render", "scene.txt", "--size", "64x40", "-o", "whole.png"]);
+    folder.succeed(&["render", "scene.txt", "--size", "64x38", "-o", "whole.png"]);
     assert!(folder.read("picture.png") == folder.read("whole.png"));
 }
 
@@ -272,7 +272,7 @@ fn gnu_parallel_draws_the_pictures_of_one_machine() {
     }
     let folder = furnished();
     run_script(&folder, &script("picture.sh"), &[("HOSTS", ":")]);
-    folder.succeed(&["render", "scene.txt", "--size", "64x40", "-o", "whole.png"]);
+    folder.succeed(&["render", "scene.txt", "--size", "64x38", "-o", "whole.png"]);
     assert!(folder.read("picture.png") == folder.read("whole.png"));
     let small = script("turntable.sh").replace("--display st7789", "--size 20x15");
     run_script(&folder, &small, &[("HOSTS", ":")]);
