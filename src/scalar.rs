@@ -37,6 +37,9 @@ pub trait Scalar:
 {
     /// Its name in messages: `f32` or `f64`.
     const NAME: &'static str;
+    /// The core has no hardware for it, so that every operation is a call of a routine in integers. Told of `f32`
+    /// alone.
+    const EMULATED: bool;
     /// 0.
     const ZERO: Self;
     /// ½.
@@ -65,6 +68,9 @@ pub trait Scalar:
 
     /// Nearest number to `value`.
     fn from_f64(value: f64) -> Self;
+
+    /// Nearest `f32`.
+    fn to_f32(self) -> f32;
 
     /// The number as `f64`, exactly.
     fn to_f64(self) -> f64;
@@ -127,6 +133,10 @@ pub trait Scalar:
 
 impl Scalar for f32 {
     const NAME: &'static str = "f32";
+    const EMULATED: bool = cfg!(any(
+        all(target_arch = "arm", target_abi = "eabi"),
+        all(target_arch = "riscv32", not(target_feature = "f")),
+    ));
     const ZERO: Self = 0.0;
     const HALF: Self = 0.5;
     const ONE: Self = 1.0;
@@ -147,6 +157,11 @@ impl Scalar for f32 {
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         value as f32
+    }
+
+    #[inline(always)]
+    fn to_f32(self) -> f32 {
+        self
     }
 
     #[inline(always)]
@@ -202,6 +217,7 @@ impl Scalar for f32 {
 
 impl Scalar for f64 {
     const NAME: &'static str = "f64";
+    const EMULATED: bool = false;
     const ZERO: Self = 0.0;
     const HALF: Self = 0.5;
     const ONE: Self = 1.0;
@@ -222,6 +238,11 @@ impl Scalar for f64 {
     #[inline(always)]
     fn from_f64(value: f64) -> Self {
         value
+    }
+
+    #[inline(always)]
+    fn to_f32(self) -> f32 {
+        self as f32
     }
 
     #[inline(always)]

@@ -2,6 +2,7 @@
 
 mod common;
 
+use common::clear_misses::ClearMisses;
 use common::random::Random;
 use common::scenes::{Model, Part, RoomyPools, Shape, load, names};
 use scanray::shape::ShapeError;
@@ -10,8 +11,13 @@ use scanray::{
     Resolution, Scalar, Scene, SceneError, ScenePools, Tracer, Tree, Vec3,
 };
 
-/// Draws a scene with its candidates and by brute force and compares all bits.
-fn compare<T: Scalar>(scene: Scene<'_, T>, resolution: Resolution, what: impl Fn() -> String) {
+/// Draws a scene with its candidates and by brute force and compares all bits. How many tests by brute force
+/// integers decide, which are watched, too.
+fn compare<T: Scalar>(
+    scene: Scene<'_, T>,
+    resolution: Resolution,
+    what: impl Fn() -> String,
+) -> u64 {
     let brute_force = Scene {
         sides: &[],
         zones: &[],
@@ -20,12 +26,14 @@ fn compare<T: Scalar>(scene: Scene<'_, T>, resolution: Resolution, what: impl Fn
     };
     let with = Tracer::new(scene).with_resolution(resolution);
     let without = Tracer::new(brute_force).with_resolution(resolution);
+    let mut misses = ClearMisses::default();
     for y in 0..resolution.height {
         let scanline = with.scanline(y);
         for x in 0..resolution.width {
             let candidates = with.pixel(x, y);
             // `radiance` has all objects as candidates of the primary ray.
-            let all = without.radiance(without.primary_ray(&scanline, x));
+            let ray = without.primary_ray(&scanline, x);
+            let all = without.radiance_observed(ray, ObjectSet::ALL, &mut misses);
             assert_eq!(
                 bits(candidates),
                 bits(all),
@@ -34,6 +42,7 @@ fn compare<T: Scalar>(scene: Scene<'_, T>, resolution: Resolution, what: impl Fn
             );
         }
     }
+    misses.count
 }
 
 /// The number of pairs of a side and an object that the candidates exclude, a pair of one octant of
@@ -194,7 +203,7 @@ fn fill<T: Scalar>(pools: &mut PoolsMut<'_, T>, model: &Model<T>) {
 
 fn crowded_scenes<T: Scalar>(default_seed: u64, scenes: usize) {
     let random = Random::of_test(default_seed);
-    let (mut excluded, mut objects) = (0, 0);
+    let (mut excluded, mut objects, mut clear_misses) = (0, 0, 0);
     for number in 0..scenes {
         let offset = [0.0, 0.0, 1.0, -30.0, 1000.0][random.below(5)];
         let scale = [1.0, 1.0, 1e-3, 1e3][random.below(4)];
@@ -206,13 +215,21 @@ fn crowded_scenes<T: Scalar>(default_seed: u64, scenes: usize) {
             width: 24,
             height: 18,
         };
-        compare(pools.as_scene(), resolution, || {
+        clear_misses += compare(pools.as_scene(), resolution, || {
             format!("scene {number}, offset {offset}, scale {scale}: {model:#?}")
         });
         excluded += excluded_pairs(pools.as_scene());
         objects += pools.as_scene().object_count();
     }
-    println!("{scenes} scenes of {objects} objects, {excluded} pairs excluded");
+    println!(
+        "{scenes} scenes of {objects} objects, {excluded} pairs excluded, {clear_misses} clear misses"
+    );
+    let single = T::NAME == f32::NAME;
+    assert_eq!(
+        clear_misses > 1000 * scenes as u64,
+        single,
+        "{clear_misses}"
+    );
     assert!(excluded > 4 * objects, "only {excluded} pairs excluded");
 }
 

@@ -90,7 +90,7 @@ fn check_ends<T: Scalar>(
 /// Rays at a sphere of any size from any distance, near its silhouette and inside it.
 fn spheres<T: Scalar>(seed: u64, rounds: usize) {
     let random = Random::of_test(seed);
-    let (mut hits, mut misses) = (0, 0);
+    let (mut hits, mut misses, mut clear_misses) = (0, 0, 0);
     for _ in 0..rounds {
         let radius = T::from_f64(random.log_between(1e-6, 1e6));
         let r = radius.to_f64();
@@ -107,6 +107,10 @@ fn spheres<T: Scalar>(seed: u64, rounds: usize) {
         let what = || format!("{sphere:?}, {ray:?}");
 
         let t = sphere.intersect(&ray, T::MAX);
+        if sphere.clearly_misses(&ray) {
+            assert_eq!(t, None, "clearly missed: {}", what());
+            clear_misses += 1;
+        }
         check_ends(
             t,
             &random,
@@ -169,8 +173,12 @@ fn spheres<T: Scalar>(seed: u64, rounds: usize) {
             "{hit:?}"
         );
     }
-    println!("{hits} hits, {misses} misses");
-    assert!(hits > rounds / 4 && misses > rounds / 20);
+    println!("{hits} hits, {misses} misses, {clear_misses} of them clear");
+    assert!(
+        hits > rounds / 4
+            && misses > rounds / 20
+            && (clear_misses > misses / 4) == (T::NAME == f32::NAME)
+    );
 }
 
 #[test]
@@ -181,6 +189,44 @@ fn spheres_in_single_precision() {
 #[test]
 fn spheres_in_double_precision() {
     spheres::<f64>(82, 100_000);
+}
+
+/// Integers tell of misses alone, however little a ray passes a sphere by or its origin lies outside of it.
+#[test]
+fn clear_misses_are_misses_at_the_edge() {
+    let random = Random::of_test(83);
+    let (mut hits, mut clear_misses) = (0, 0);
+    for _ in 0..1_000_000 {
+        let radius = random.log_between(1e-18, 1e18) as f32;
+        let r = f64::from(radius);
+        let center: Vec3 = random.point(random.log_between(1e-3, 1e3) * r);
+        let sphere = Sphere::new(center, radius, SURFACE).unwrap();
+        let c = wide(center);
+        let nearly = |by: f64| 1.0 + random.sign() * random.log_between(1e-8, by);
+        let away: Vec3<f64> = random.direction();
+        let ray = match random.below(2) {
+            // A tangent, or nearly, from near and far, the sphere ahead or behind.
+            0 => {
+                let side = away.cross(random.direction()).normalize() * (r * nearly(0.3));
+                let start = side + away * (r * random.sign() * random.log_between(1e-6, 1e2));
+                let origin: Vec3 = narrow(c + start);
+                ray_to(origin, c + side)
+            }
+            // From the surface, or nearly, in any direction.
+            _ => {
+                let origin: Vec3 = narrow(c + away * (r * nearly(0.1)));
+                Ray::new(origin, random.direction())
+            }
+        };
+        let t = sphere.intersect(&ray, f32::MAX);
+        hits += usize::from(t.is_some());
+        if sphere.clearly_misses(&ray) {
+            assert_eq!(t, None, "{sphere:?}, {ray:?}");
+            clear_misses += 1;
+        }
+    }
+    println!("{hits} hits, {clear_misses} clear misses");
+    assert!(hits > 200_000 && clear_misses > 30_000);
 }
 
 /// Rays at a plane from both sides, along it and away from it.
@@ -271,7 +317,7 @@ fn planes_in_double_precision() {
 /// Rays at triangles of any size and distance, at places inside and outside of them.
 fn triangles<T: Scalar>(seed: u64, rounds: usize) {
     let random = Random::of_test(seed);
-    let (mut hits, mut misses) = (0, 0);
+    let (mut hits, mut misses, mut clear_misses) = (0, 0, 0);
     for _ in 0..rounds {
         let size = random.log_between(1e-4, 1e4);
         let place: Vec3<f64> = random.point(size * random.log_between(1e-2, 1e2));
@@ -299,6 +345,10 @@ fn triangles<T: Scalar>(seed: u64, rounds: usize) {
         let what = || format!("{triangle:?}, {ray:?}");
 
         let found = triangle.intersect(&ray, T::MAX);
+        if triangle.clearly_misses(&ray) {
+            assert_eq!(found, None, "clearly missed: {}", what());
+            clear_misses += 1;
+        }
         check_ends(
             found.map(|(t, _)| t),
             &random,
@@ -385,8 +435,12 @@ fn triangles<T: Scalar>(seed: u64, rounds: usize) {
             what()
         );
     }
-    println!("{hits} hits, {misses} misses");
-    assert!(hits > rounds / 10 && misses > rounds / 10);
+    println!("{hits} hits, {misses} misses, {clear_misses} of them clear");
+    assert!(
+        hits > rounds / 10
+            && misses > rounds / 10
+            && (clear_misses > misses / 4) == (T::NAME == f32::NAME)
+    );
 }
 
 #[test]

@@ -4,6 +4,7 @@
 //! `occludes(ray, t_max)`, whether there is any within `0 < t < t_max`. `t_max` must be finite, so
 //! that a distance always is; NaN anywhere is a miss.
 
+mod coarse;
 mod plane;
 mod sphere;
 mod triangle;

@@ -1,5 +1,6 @@
 //! Triangles.
 
+use super::coarse::Sighting;
 use super::{ShapeError, Surface, SurfacePoint, extent};
 use crate::ray::{Ray, origin_offset};
 use crate::scalar::Scalar;
@@ -126,6 +127,15 @@ impl<T: Scalar> Triangle<T> {
         self.surface
     }
 
+    /// Whether a coarse look in integers, which decides first where floats are emulated, finds that the ray does
+    /// not meet its ball.
+    #[doc(hidden)]
+    #[inline(always)]
+    pub fn clearly_misses(&self, ray: &Ray<T>) -> bool {
+        Sighting::of(ray, self.ball_center, self.ball_radius_squared, self.offset)
+            .is_some_and(|sighting| sighting.is_clear_miss())
+    }
+
     /// Whether the ray's line may come close enough to the triangle for the exact test to hit.
     ///
     /// Never wrong in the other direction. With `R` the ball's radius, `b` the distance along the ray to
@@ -135,6 +145,9 @@ impl<T: Scalar> Triangle<T> {
     /// made.
     #[inline(always)]
     fn may_meet(&self, ray: &Ray<T>) -> bool {
+        if T::EMULATED && self.clearly_misses(ray) {
+            return false;
+        }
         let f = self.ball_center - ray.origin;
         let b = f.dot(ray.direction);
         let l = f - ray.direction * b;

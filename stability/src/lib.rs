@@ -9,6 +9,7 @@
 //! "Stiff" means two widely separated scales in one scene.
 
 pub mod catalogue;
+pub mod clear_misses;
 pub mod pictures;
 pub mod random;
 pub mod reference;

@@ -7,7 +7,7 @@ pub(crate) mod canvas;
 pub(crate) mod picture;
 
 #[allow(unused_imports)]
-pub(crate) use scanray_stability::{random, scenes, settled as sampling};
+pub(crate) use scanray_stability::{clear_misses, random, scenes, settled as sampling};
 
 /// Whether expected files are to be rewritten instead of compared.
 pub(crate) fn is_blessing() -> bool {

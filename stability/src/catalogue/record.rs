@@ -1,10 +1,13 @@
 //! What is measured of a case.
 
 use embedded_graphics::pixelcolor::Rgb888;
-use scanray::{Color, DisplayColor, Observer, Ray, RayCount, Scalar, Tracer, Vec3};
+use scanray::{
+    Color, DisplayColor, Object, Observer, Ray, RayCount, RayKind, Scalar, Tracer, Vec3,
+};
 use serde::Serialize;
 
 use crate::Number;
+use crate::clear_misses::ClearMisses;
 use crate::random::Random;
 use crate::scenes::Model;
 use crate::settled::{View, level_distance, levels, settled_through};
@@ -81,6 +84,23 @@ pub struct Record {
 
 /// A picture's linear colours, row by row.
 pub(super) type Colors<T> = Vec<Color<T>>;
+
+/// What is watched of a pixel.
+#[derive(Default)]
+struct Watch {
+    rays: RayCount,
+    misses: ClearMisses,
+}
+
+impl<T: Scalar> Observer<T> for Watch {
+    fn ray(&mut self, kind: RayKind, depth: usize, ray: &Ray<T>) {
+        self.rays.ray(kind, depth, ray);
+    }
+
+    fn test_object(&mut self, object: Object<'_, T>, ray: &Ray<T>, t_max: T) {
+        self.misses.test_object(object, ray, t_max);
+    }
+}
 
 impl Record {
     pub(super) fn new(effort: Effort) -> Self {
@@ -222,7 +242,7 @@ impl Record {
         for y in 0..size.height {
             let scanline = tracer.scanline(y);
             for x in 0..size.width {
-                let mut rays = RayCount::default();
+                let mut rays = Watch::default();
                 let color = tracer.pixel_observed(&scanline, x, &mut rays);
                 self.watch(tracer, color, rays);
                 self.cut_off(tracer, tracer.primary_ray(&scanline, x), color);
@@ -238,7 +258,7 @@ impl Record {
         tracer: &Tracer<'_, T, NEEDS, STACK>,
         ray: Ray<T>,
     ) -> Color<T> {
-        let mut rays = RayCount::default();
+        let mut rays = Watch::default();
         let color = tracer.radiance_observed(ray, scanray::ObjectSet::ALL, &mut rays);
         self.watch(tracer, color, rays);
         self.cut_off(tracer, ray, color);
@@ -253,7 +273,7 @@ impl Record {
         observer: &mut impl Observer<T>,
     ) -> Color<T> {
         let color = tracer.pixel_observed(&tracer.scanline(y), x, observer);
-        self.watch(tracer, color, RayCount::default());
+        self.watch(tracer, color, Watch::default());
         color
     }
 
@@ -261,10 +281,10 @@ impl Record {
         &mut self,
         tracer: &Tracer<'_, T, NEEDS, STACK>,
         color: Color<T>,
-        rays: RayCount,
+        rays: Watch,
     ) {
         let is_color = color.is_finite() && color == color.clamp();
-        let is_bounded = u64::from(rays.0) <= tracer.max_rays_per_pixel();
+        let is_bounded = u64::from(rays.rays.0) <= tracer.max_rays_per_pixel();
         self.drawn += 1;
         self.broken += u64::from(!(is_color && is_bounded));
     }
@@ -315,7 +335,7 @@ impl Record {
         for y in 0..size.height {
             for x in 0..size.width {
                 let actual = if half_height == 1.0 {
-                    let mut rays = RayCount::default();
+                    let mut rays = Watch::default();
                     let scanline = own.scanline(y);
                     let color = own.pixel_observed(&scanline, x, &mut rays);
                     self.watch(&own, color, rays);
