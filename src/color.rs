@@ -36,7 +36,7 @@ impl<T: Scalar> Color<T> {
     /// All channels are 0.
     #[inline(always)]
     pub fn is_black(self) -> bool {
-        self.r == T::ZERO && self.g == T::ZERO && self.b == T::ZERO
+        self.r.is_zero() && self.g.is_zero() && self.b.is_zero()
     }
 
     /// All channels are finite.

@@ -126,7 +126,7 @@ impl<T: Scalar> Material<T> {
     /// Objects with an index of refraction of exactly 1 let all light pass.
     #[inline(always)]
     pub fn casts_shadow(&self) -> bool {
-        self.description.index_of_refraction != T::ONE
+        !self.description.index_of_refraction.is_one()
     }
 }
 

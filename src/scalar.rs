@@ -114,6 +114,60 @@ pub trait Scalar:
     /// Neither infinite nor NaN.
     fn is_finite(self) -> bool;
 
+    /// Above 0; false for NaN.
+    #[inline(always)]
+    fn is_positive(self) -> bool {
+        self > Self::ZERO
+    }
+
+    /// 0 or above, −0 too; false for NaN.
+    #[inline(always)]
+    fn is_zero_or_positive(self) -> bool {
+        self >= Self::ZERO
+    }
+
+    /// 0 or below, +0 too; false for NaN.
+    #[inline(always)]
+    fn is_zero_or_negative(self) -> bool {
+        self <= Self::ZERO
+    }
+
+    /// `self < other`, where neither is below 0 or NaN.
+    #[inline(always)]
+    fn is_before(self, other: Self) -> bool {
+        self < other
+    }
+
+    /// `self ≤ other`, where `self` is not below 0 and `other` neither −0 nor NaN; false if `self` is NaN.
+    #[inline(always)]
+    fn is_up_to(self, other: Self) -> bool {
+        self <= other
+    }
+
+    /// Equal to 0 or −0.
+    #[inline(always)]
+    fn is_zero(self) -> bool {
+        self == Self::ZERO
+    }
+
+    /// Equal to 1.
+    #[inline(always)]
+    fn is_one(self) -> bool {
+        self == Self::ONE
+    }
+
+    /// `2·self`.
+    #[inline(always)]
+    fn double(self) -> Self {
+        Self::TWO * self
+    }
+
+    /// `½·self`.
+    #[inline(always)]
+    fn halve(self) -> Self {
+        Self::HALF * self
+    }
+
     /// The larger of two numbers; the other one when `self` is NaN.
     #[inline(always)]
     fn max(self, other: Self) -> Self {
@@ -130,6 +184,12 @@ pub trait Scalar:
         }
     }
 }
+
+/// The sign of an `f32`.
+const SIGN: u32 = 1 << 31;
+
+/// Infinity as a number: NaN and all negative numbers are above.
+const INFINITY: u32 = f32::INFINITY.to_bits();
 
 impl Scalar for f32 {
     const NAME: &'static str = "f32";
@@ -171,12 +231,30 @@ impl Scalar for f32 {
 
     #[inline(always)]
     fn to_u32(self) -> u32 {
-        self as u32
+        if !Self::EMULATED {
+            return self as u32;
+        }
+        let bits = self.to_bits();
+        // Negative numbers have the largest exponents here.
+        match bits >> 23 {
+            0..127 => 0,
+            exponent @ 127..159 => (bits << 8 | 1 << 31) >> (158 - exponent),
+            _ if bits > INFINITY => 0,
+            _ => u32::MAX,
+        }
     }
 
     #[inline(always)]
     fn to_i32(self) -> i32 {
-        self as i32
+        if !Self::EMULATED {
+            return self as i32;
+        }
+        let magnitude = self.abs().to_u32().min(1 << 31);
+        if self.is_sign_negative() {
+            (magnitude as i32).wrapping_neg()
+        } else {
+            magnitude.min(i32::MAX as u32) as i32
+        }
     }
 
     #[inline(always)]
@@ -189,7 +267,6 @@ impl Scalar for f32 {
     #[inline(always)]
     fn clamp01(self) -> Self {
         const ONE: u32 = 1.0_f32.to_bits();
-        const INFINITY: u32 = f32::INFINITY.to_bits();
         let bits = self.to_bits();
         let above_zero = if bits > INFINITY { 0 } else { bits };
         f32::from_bits(if above_zero > ONE { ONE } else { above_zero })
@@ -212,6 +289,89 @@ impl Scalar for f32 {
     #[inline(always)]
     fn is_finite(self) -> bool {
         f32::is_finite(self)
+    }
+
+    #[inline(always)]
+    fn is_positive(self) -> bool {
+        if Self::EMULATED {
+            self.to_bits().wrapping_sub(1) < INFINITY
+        } else {
+            self > 0.0
+        }
+    }
+
+    #[inline(always)]
+    fn is_zero_or_positive(self) -> bool {
+        if Self::EMULATED {
+            self.to_bits() <= INFINITY || self.to_bits() == SIGN
+        } else {
+            self >= 0.0
+        }
+    }
+
+    #[inline(always)]
+    fn is_zero_or_negative(self) -> bool {
+        if Self::EMULATED {
+            (-self).is_zero_or_positive()
+        } else {
+            self <= 0.0
+        }
+    }
+
+    #[inline(always)]
+    fn is_before(self, other: Self) -> bool {
+        if Self::EMULATED {
+            self.to_bits() < other.to_bits()
+        } else {
+            self < other
+        }
+    }
+
+    #[inline(always)]
+    fn is_up_to(self, other: Self) -> bool {
+        if Self::EMULATED {
+            self.to_bits() <= INFINITY && self.to_bits() as i32 <= other.to_bits() as i32
+        } else {
+            self <= other
+        }
+    }
+
+    #[inline(always)]
+    fn is_zero(self) -> bool {
+        if Self::EMULATED {
+            self.to_bits() << 1 == 0
+        } else {
+            self == 0.0
+        }
+    }
+
+    #[inline(always)]
+    fn is_one(self) -> bool {
+        if Self::EMULATED {
+            self.to_bits() == 1.0_f32.to_bits()
+        } else {
+            self == 1.0
+        }
+    }
+
+    #[inline(always)]
+    fn double(self) -> Self {
+        let bits = self.to_bits();
+        if Self::EMULATED && (1..254).contains(&(bits >> 23 & 0xff)) {
+            f32::from_bits(bits + (1 << 23))
+        } else {
+            2.0 * self
+        }
+    }
+
+    #[inline(always)]
+    fn halve(self) -> Self {
+        let bits = self.to_bits();
+        if Self::EMULATED && (2..255).contains(&(bits >> 23 & 0xff)) {
+            f32::from_bits(bits - (1 << 23))
+        } else {
+            0.5 * self
+        }
     }
 }
 

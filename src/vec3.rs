@@ -88,13 +88,19 @@ impl<T: Scalar> Vec3<T> {
     /// length 1, without a root or a division.
     #[inline(always)]
     fn renormalize(self) -> Self {
-        self * (T::THREE_HALVES - T::HALF * self.dot(self))
+        self * (T::THREE_HALVES - self.dot(self).halve())
     }
 
     /// The mirror direction of the unit vector `self` at a surface with unit normal `normal`.
     #[inline(always)]
     pub fn reflect(self, normal: Self) -> Self {
-        (self - normal * (T::TWO * self.dot(normal))).renormalize()
+        self.reflect_at(normal, -self.dot(normal))
+    }
+
+    /// [`Vec3::reflect`] where `cosine = −self·normal` is known.
+    #[inline(always)]
+    pub(crate) fn reflect_at(self, normal: Self, cosine: T) -> Self {
+        (self + normal * cosine.double()).renormalize()
     }
 
     /// The refracted direction of the unit vector `self`, or `None` at total internal reflection.
@@ -107,15 +113,20 @@ impl<T: Scalar> Vec3<T> {
     /// `k = 1 − eta²(1 − c²)`, but the sign that decides total reflection has no cancellation.
     #[inline]
     pub fn refract(self, normal: Self, eta: T, bend: T) -> Option<Self> {
-        let cosine = -self.dot(normal);
+        self.refract_at(normal, -self.dot(normal), eta, bend)
+    }
+
+    /// [`Vec3::refract`] where `cosine = −self·normal` is known.
+    #[inline]
+    pub(crate) fn refract_at(self, normal: Self, cosine: T, eta: T, bend: T) -> Option<Self> {
         let k = cosine * cosine + bend;
         // NaN counts as total reflection, so that no direction without a length leaves here.
-        if !(k >= T::ZERO) {
+        if !k.is_zero_or_positive() {
             return None;
         }
         let direction = (self + normal * (cosine - k.sqrt())) * eta;
         let drift = (direction.dot(direction) - T::ONE).abs();
-        if drift < T::EPSILON * T::from_i32(256) {
+        if drift.is_before(T::EPSILON * T::from_i32(256)) {
             Some(direction.renormalize())
         } else {
             // Only an extreme index cancels enough to come here, or even to end on the wrong side.

@@ -72,7 +72,7 @@ impl<T: Scalar> Plane<T> {
     pub(crate) fn meet(&self, ray: &Ray<T>) -> Option<T> {
         let t = (self.height - self.normal.dot(ray.origin)) / self.normal.dot(ray.direction);
         // A ray that leaves the plane is rare among those tested, so that is asked last.
-        (t > T::ZERO && ray.leaves.object() != self.surface.number).then_some(t)
+        (t.is_positive() && ray.leaves.object() != self.surface.number).then_some(t)
     }
 
     /// Whether the ray crosses the plane within `0 < t < t_max`.

@@ -121,7 +121,7 @@ impl<T: Scalar> Sphere<T> {
         let b = f.dot(ray.direction);
         let l = f - ray.direction * b;
         let discriminant = self.radius_squared - l.dot(l);
-        if discriminant >= T::ZERO {
+        if discriminant.is_zero_or_positive() {
             let half_chord = discriminant.sqrt();
             Some((b - half_chord, b + half_chord))
         } else {
@@ -140,10 +140,10 @@ impl<T: Scalar> Sphere<T> {
     pub(crate) fn meet(&self, ray: &Ray<T>) -> Option<T> {
         let (near, far) = self.crossings(ray)?;
         // From inside the sphere only the far crossing lies ahead.
-        if near > T::ZERO {
+        if near.is_positive() {
             Some(near)
         } else {
-            (far > T::ZERO).then_some(far)
+            far.is_positive().then_some(far)
         }
     }
 
@@ -151,7 +151,10 @@ impl<T: Scalar> Sphere<T> {
     #[inline(always)]
     pub fn occludes(&self, ray: &Ray<T>, t_max: T) -> bool {
         match self.crossings(ray) {
-            Some((near, far)) => (near > T::ZERO && near < t_max) || (far > T::ZERO && far < t_max),
+            Some((near, far)) => {
+                (near.is_positive() && near.is_before(t_max))
+                    || (far.is_positive() && far.is_before(t_max))
+            }
             None => false,
         }
     }

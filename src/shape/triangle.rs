@@ -151,7 +151,8 @@ impl<T: Scalar> Triangle<T> {
         let f = self.ball_center - ray.origin;
         let b = f.dot(ray.direction);
         let l = f - ray.direction * b;
-        l.dot(l) <= self.ball_radius_squared + ball_slack::<T>() * (b * b)
+        l.dot(l)
+            .is_up_to(self.ball_radius_squared + ball_slack::<T>() * (b * b))
     }
 
     /// Distance and place of the crossing within `0 < t ≤ t_max`.
@@ -183,15 +184,16 @@ impl<T: Scalar> Triangle<T> {
         let (a, b, c) = (shear(v1), shear(v2), shear(v3));
         let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
         // Inside: no two edge functions of opposite sign.
-        let inside = (u >= T::ZERO && v >= T::ZERO && w >= T::ZERO)
-            || (u <= T::ZERO && v <= T::ZERO && w <= T::ZERO);
+        let inside =
+            (u.is_zero_or_positive() && v.is_zero_or_positive() && w.is_zero_or_positive())
+                || (u.is_zero_or_negative() && v.is_zero_or_negative() && w.is_zero_or_negative());
         let determinant = u + v + w;
-        if !inside || determinant == T::ZERO {
+        if !inside || determinant.is_zero() {
             return None;
         }
         let inverse = T::ONE / determinant;
         let t = (u * a.z + v * b.z + w * c.z) * inverse;
-        if t > T::ZERO && t <= t_max {
+        if t.is_positive() && t.is_up_to(t_max) {
             let place = Barycentric {
                 v2: v * inverse,
                 v3: w * inverse,
@@ -258,7 +260,7 @@ impl Turn {
 #[inline(always)]
 fn edge<T: Scalar>(p: Vec3<T>, q: Vec3<T>) -> T {
     let difference = p.x * q.y - p.y * q.x;
-    if difference == T::ZERO {
+    if difference.is_zero() {
         exact_edge(p, q)
     } else {
         difference

@@ -181,7 +181,7 @@ impl<T: Scalar> Closest<T> {
     /// two at exactly the same distance the first in the file wins.
     #[inline(always)]
     fn offer(&mut self, t: T, index: usize, surface: Surface) -> bool {
-        if !(t < self.t || (t == self.t && surface.number < self.number)) {
+        if !(t.is_before(self.t) || (t == self.t && surface.number < self.number)) {
             return false;
         }
         self.take(t, index, surface);
@@ -366,7 +366,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                 observer.test_object(Object::Sphere(sphere), ray, closest.t);
                 // Spheres come first, in the order of the file: of two at one distance the first stays.
                 if let Some(t) = sphere.meet(ray)
-                    && t < closest.t
+                    && t.is_before(closest.t)
                 {
                     closest.take(t, index, sphere.surface());
                 }
@@ -585,7 +585,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             (triangle.surface_point(closest.place), triangle.surface())
         };
         let slope = point.normal.dot(ray.direction);
-        let entering = slope <= T::ZERO;
+        let entering = slope.is_zero_or_negative();
         let normal = if entering {
             point.normal
         } else {
@@ -617,10 +617,10 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
     #[inline(always)]
     fn mirrored(&self, ray: &Ray<T>, hit: &Hit<'a, T>, shows: bool) -> Option<Branch<T>> {
         let weight = hit.material.description().reflection;
-        (stage(NEEDS, Needs::REFLECTION) && weight > T::ZERO && shows).then(|| Branch {
+        (stage(NEEDS, Needs::REFLECTION) && weight.is_positive() && shows).then(|| Branch {
             ray: Ray {
                 origin: hit.outside,
-                direction: ray.direction.reflect(hit.normal),
+                direction: ray.direction.reflect_at(hit.normal, hit.cosine),
                 leaves: hit.facing,
             },
             weight,
@@ -631,7 +631,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
     #[inline(always)]
     fn refracted(&self, ray: &Ray<T>, hit: &Hit<'a, T>, shows: bool) -> Option<Branch<T>> {
         let weight = hit.material.description().refraction;
-        if !(stage(NEEDS, Needs::REFRACTION) && weight > T::ZERO && shows) {
+        if !(stage(NEEDS, Needs::REFRACTION) && weight.is_positive() && shows) {
             return None;
         }
         Some(Branch {
@@ -648,7 +648,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
     #[inline(always)]
     fn refracted_direction(&self, ray: &Ray<T>, hit: &Hit<'a, T>) -> Option<Vec3<T>> {
         // Index 1 passes straight through, to the bit.
-        if !stage(NEEDS, Needs::BENDING) || hit.material.description().index_of_refraction == T::ONE
+        if !stage(NEEDS, Needs::BENDING) || hit.material.description().index_of_refraction.is_one()
         {
             return Some(ray.direction);
         }
@@ -657,7 +657,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         } else {
             hit.material.leaving()
         };
-        ray.direction.refract(hit.normal, eta, bend)
+        ray.direction.refract_at(hit.normal, hit.cosine, eta, bend)
     }
 
     #[inline(always)]

@@ -39,7 +39,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             let distance_squared = to_light.dot(to_light);
             // The distance is 0 only in a light that lies in the hit itself, and underflows only next
             // to it.
-            if !(toward > T::ZERO && distance_squared > T::ZERO) {
+            if !(toward.is_positive() && distance_squared.is_positive()) {
                 observer.light(LightAtHit::Behind);
                 continue;
             }
@@ -66,8 +66,8 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             let mut specular = None;
             if stage(NEEDS, Needs::SPECULAR) && !material.specular.is_black() {
                 // R·V with R = 2(N·L)N − L and V = −d.
-                let alignment = T::TWO * cosine * hit.cosine + direction.dot(ray.direction);
-                if alignment > T::ZERO {
+                let alignment = cosine.double() * hit.cosine + direction.dot(ray.direction);
+                if alignment.is_positive() {
                     let highlight = self.phong_power(alignment, hit.material);
                     let light = light.specular * highlight * material.specular;
                     color = color + light;
@@ -82,7 +82,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
     /// `alignment^shininess`; rounding may have taken the alignment beyond 1.
     #[inline(always)]
     fn phong_power(&self, alignment: T, material: &Material<T>) -> T {
-        let base = if alignment < T::ONE {
+        let base = if alignment.is_before(T::ONE) {
             alignment
         } else {
             T::ONE
