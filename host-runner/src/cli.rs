@@ -55,7 +55,8 @@ Examples:
   scanray help example                     how a scene file is written
   scanray help render                      all that render can do
 
-Exit codes: 0 fine, 1 a difference (diff, fmt --check) or a figure beyond its bound (stability), 2 usage, 3 scene, 4 files."
+Exit codes: 0 fine, 1 a difference (diff, fmt --check) or a figure beyond its bound (stability), 2 usage, 3 scene, 4 files \
+or memory."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]

@@ -133,10 +133,8 @@ impl ValueEnum for DisplayChoice {
 ///
 /// Those of `out`.
 pub(crate) fn write_list(out: &mut dyn Write) -> io::Result<()> {
-    writeln!(
-        out,
-        "NAME         STANDS FOR                            WHAT IT IS"
-    )?;
+    let [name, figures, what] = ["NAME", "STANDS FOR", "WHAT IT IS"];
+    writeln!(out, "{name:<11} {figures:<38} {what}")?;
     for choice in CHOICES {
         let DisplayChoice::Of(display) = choice else {
             continue;

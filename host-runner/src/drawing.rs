@@ -14,6 +14,7 @@ use scanray::{DisplayColor, Picture, PixelSource, Quantizer};
 
 use crate::canvas::Canvas;
 use crate::failure::Failure;
+use crate::memory::{Shortage, require};
 use crate::progress::Progress;
 
 /// A picture of more pixels is drawn and written in parts of about as many, so that memory has a
@@ -22,6 +23,10 @@ const PART_PIXELS: usize = 1 << 24;
 
 /// Rows that a thread draws before it takes new ones.
 const BAND_ROWS: usize = 4;
+
+fn rows_of_a_part(width: usize) -> usize {
+    (PART_PIXELS / width).max(1)
+}
 
 /// The threads that draw.
 #[derive(Debug)]
@@ -65,20 +70,31 @@ pub(crate) struct Parts<'a, P, Q> {
 
 impl<'a, P: PixelSource, Q: Quantizer> Parts<'a, P, Q> {
     /// Begins to draw rows of a picture; each is a step of the progress.
+    ///
+    /// # Errors
+    ///
+    /// A [`Shortage`] of memory for a canvas.
     pub(crate) fn new(
         picture: Picture<P, Q>,
         rows: Range<u16>,
         workers: &'a Workers,
         progress: &'a Progress,
-    ) -> Self {
-        Self {
+    ) -> Result<Self, Shortage> {
+        let width = usize::from(picture.resolution().width);
+        let pixels = width * rows.len().min(rows_of_a_part(width));
+        require(
+            (pixels * size_of::<Q::Color>()) as u64,
+            format_args!("a part of {pixels} pixels"),
+            "draw smaller parts with --rows, or draw with a smaller --size",
+        )?;
+        Ok(Self {
             picture,
             rows,
             workers,
             progress,
             time: Duration::ZERO,
             cpu_time: Duration::ZERO,
-        }
+        })
     }
 
     /// What drawing has taken so far, without what happens between the parts.
@@ -106,8 +122,7 @@ where
         let start = Instant::now();
         let cpu_start = ProcessTime::now();
         let width = self.picture.resolution().width;
-        let most = (PART_PIXELS / usize::from(width)).max(1);
-        let rows = self.rows.len().min(most) as u16;
+        let rows = self.rows.len().min(rows_of_a_part(width.into())) as u16;
         let top = self.rows.start;
         self.rows.start += rows;
 

@@ -14,6 +14,8 @@ pub(crate) enum Failure {
     Scene(String),
     /// A file could not be read or written: code 4.
     Files(String),
+    /// The machine has too little memory: code 4.
+    Memory(String),
     /// Nobody reads standard output any more, as after `| head`: no words, code 0.
     ClosedPipe,
 }
@@ -35,7 +37,9 @@ impl Failure {
     /// What went wrong, in words; none for a closed pipe.
     pub(crate) fn words(&self) -> String {
         match self {
-            Self::Usage(words) | Self::Files(words) => format!("error: {words}"),
+            Self::Usage(words) | Self::Files(words) | Self::Memory(words) => {
+                format!("error: {words}")
+            }
             Self::Scene(report) => report.clone(),
             Self::ClosedPipe => String::new(),
         }
@@ -46,7 +50,7 @@ impl Failure {
         let code = match self {
             Self::Usage(_) => 2,
             Self::Scene(_) => 3,
-            Self::Files(_) => 4,
+            Self::Files(_) | Self::Memory(_) => 4,
             Self::ClosedPipe => return ExitCode::SUCCESS,
         };
         crate::console::say(self.words());

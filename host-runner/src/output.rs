@@ -5,6 +5,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
+use crate::interrupt;
 
 /// A place for a picture, known to be writable as far as that can be known before.
 #[derive(Clone, Debug)]
@@ -76,23 +77,68 @@ impl Place {
         &self,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<u64, Failure> {
+        self.write_made(|out| Ok(write(out)?))
+    }
+
+    /// The same for what is made while it is written, which may fail for other reasons.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure::Files`], [`Failure::ClosedPipe`] and those of the making.
+    pub(crate) fn write_made(
+        &self,
+        write: impl FnOnce(&mut dyn Write) -> Result<(), Unwritten>,
+    ) -> Result<u64, Failure> {
         match self {
-            Self::Stdout => {
-                write_all(io::stdout().lock(), write).map_err(|error| Failure::stdout(&error))
-            }
+            Self::Stdout => write_all(io::stdout().lock(), write),
             Self::Device(name) => OpenOptions::new()
                 .write(true)
                 .open(name)
-                .and_then(|device| write_all(device, write))
-                .map_err(|error| Failure::file("write", name, error)),
+                .map_err(Unwritten::File)
+                .and_then(|device| write_all(device, write)),
             Self::File { name, target } => {
                 let mut part = PartFile::create(name, target)?;
-                let bytes = write_all(&mut part.file, write);
-                bytes
-                    .and_then(|bytes| part.rename_to(target).map(|()| bytes))
-                    .map_err(|error| Failure::file("write", name, error))
+                write_all(&mut part.file, write).and_then(|bytes| {
+                    part.rename_to(target)?;
+                    Ok(bytes)
+                })
             }
         }
+        .map_err(|unwritten| unwritten.of(self))
+    }
+}
+
+/// Why something was not written.
+#[derive(Debug)]
+pub(crate) enum Unwritten {
+    /// Its file did not take it.
+    File(io::Error),
+    /// It was not there.
+    Unmade(Failure),
+}
+
+impl Unwritten {
+    /// The end of a command that writes to a place.
+    pub(crate) fn of(self, place: &Place) -> Failure {
+        match (self, place) {
+            (Self::Unmade(failure), _) => failure,
+            (Self::File(error), Place::Stdout) => Failure::stdout(&error),
+            (Self::File(error), Place::File { name, .. } | Place::Device(name)) => {
+                Failure::file("write", name, error)
+            }
+        }
+    }
+}
+
+impl From<io::Error> for Unwritten {
+    fn from(error: io::Error) -> Self {
+        Self::File(error)
+    }
+}
+
+impl<E: Into<Failure>> From<E> for Unwritten {
+    fn from(failure: E) -> Self {
+        Self::Unmade(failure.into())
     }
 }
 
@@ -107,8 +153,8 @@ fn folder_of(file: &Path) -> &Path {
 /// Writes through a buffer; returns the number of bytes.
 fn write_all(
     file: impl Write,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<u64> {
+    write: impl FnOnce(&mut dyn Write) -> Result<(), Unwritten>,
+) -> Result<u64, Unwritten> {
     let mut counted = Counted {
         file: BufWriter::with_capacity(1 << 16, file),
         bytes: 0,
@@ -152,7 +198,12 @@ impl PartFile {
         let mut attempt = 0;
         loop {
             let path = folder.join(format!("scanray-{process}-{attempt}.part"));
-            match File::create_new(&path) {
+            interrupt::remove_unfinished(&path);
+            let file = File::create_new(&path);
+            if file.is_err() {
+                interrupt::keep_finished(&path);
+            }
+            match file {
                 Ok(file) => {
                     let path = Some(path);
                     return Ok(Self { file, path });
@@ -166,25 +217,41 @@ impl PartFile {
         }
     }
 
-    /// Takes the target's place, and its permissions if there is an older one.
+    /// Takes the target's place, and its owner and permissions if there is an older one.
     fn rename_to(mut self, target: &Path) -> io::Result<()> {
         if let Ok(old) = fs::metadata(target) {
+            keep_owner(&self.file, &old);
             self.file.set_permissions(old.permissions())?;
         }
         // Some file systems say only now that they are full.
         self.file.sync_all()?;
         if let Some(path) = &self.path {
             fs::rename(path, target)?;
+            interrupt::keep_finished(path);
         }
         self.path = None;
         Ok(())
     }
 }
 
+/// Gives a file the owner and the group of an older one, as far as this user may.
+#[cfg(unix)]
+fn keep_owner(file: &File, old: &fs::Metadata) {
+    use std::os::unix::fs::{MetadataExt, fchown};
+    // One by one: a user may give a file to a group of theirs, but to nobody else.
+    let _ = fchown(file, None, Some(old.gid()));
+    let _ = fchown(file, Some(old.uid()), None);
+}
+
+/// Elsewhere a file belongs to its folder's owner.
+#[cfg(not(unix))]
+fn keep_owner(_: &File, _: &fs::Metadata) {}
+
 impl Drop for PartFile {
     fn drop(&mut self) {
         if let Some(path) = &self.path {
             let _ = fs::remove_file(path);
+            interrupt::keep_finished(path);
         }
     }
 }

@@ -16,9 +16,17 @@ use scanray::{Resolution, Scalar, Scene, Tree};
 use sha2::{Digest, Sha256};
 
 use crate::options::Size;
+use crate::picture_args::PictureSettings;
 
 /// The first word.
 const MARK: &str = "scanray-part";
+
+/// The settings that are a hash of the scene, and the name of the number type.
+pub(crate) const SCENE: &str = "scene";
+const SCALAR: &str = "scalar";
+
+/// Settings that no option of the command line is named after.
+const NO_OPTIONS: [&str; 2] = [SCENE, "version"];
 
 /// Which part of what.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -88,13 +96,29 @@ impl PartRecord {
         is_possible.then_some(record)
     }
 
-    /// In what the whole differs that another part belongs to, as "color rgb565 instead of rgb888".
+    /// The options of `scanray render` that draw another part of the same, each after a blank; those that
+    /// change nothing are left out.
+    pub(crate) fn options(&self) -> String {
+        let Resolution { width, height } = self.size;
+        let mut options = format!(" --size {width}x{height}");
+        let defaults = PictureSettings::default().record();
+        for setting in &self.settings {
+            let (name, value) = setting;
+            if !NO_OPTIONS.contains(&&**name) && !defaults.contains(setting) {
+                options += &format!(" --{name}={value}");
+            }
+        }
+        options
+    }
+
+    /// In what the whole differs that another part belongs to, as "--color rgb565 instead of rgb888".
     pub(crate) fn differences(&self, other: &Self) -> Vec<String> {
         let mut differences = Vec::new();
         let mut compare = |name: &str, mine: Option<&str>, others: Option<&str>| {
             if mine != others {
                 let [mine, others] = [mine, others].map(|value| value.unwrap_or("none"));
-                differences.push(format!("{name} {others} instead of {mine}"));
+                let dashes = if NO_OPTIONS.contains(&name) { "" } else { "--" };
+                differences.push(format!("{dashes}{name} {others} instead of {mine}"));
             }
         };
         let [mine, others] = [self, other].map(|record| {
@@ -108,8 +132,17 @@ impl PartRecord {
             .iter()
             .flat_map(|record| record.settings.iter().map(|(name, _)| &**name))
             .collect();
-        for name in names {
+        let is_same = |name: &str| self.setting(name) == other.setting(name);
+        for name in names.iter().filter(|name| **name != SCENE) {
             compare(name, self.setting(name), other.setting(name));
+        }
+        // The same scene has other numbers in another type.
+        if !is_same(SCENE) && is_same(SCALAR) {
+            differences.push(
+                "another scene, in its camera, light, objects or background (comments and the file's name do not \
+                 count)"
+                    .to_owned(),
+            );
         }
         differences
     }
@@ -213,10 +246,10 @@ mod tests {
         assert_eq!(
             record.differences(&other),
             [
-                "size 80x120 instead of 160x120",
-                "turntable none instead of 36",
-                "color rgb565 instead of rgb888",
-                "cutoff 0.1 instead of none",
+                "--size 80x120 instead of 160x120",
+                "--turntable none instead of 36",
+                "--color rgb565 instead of rgb888",
+                "--cutoff 0.1 instead of none",
             ]
         );
     }

@@ -12,7 +12,12 @@ use crate::options::{ColorName, ScalarName, Size, max_depth, name_of, with_color
 #[derive(Args, Debug)]
 pub(crate) struct PictureArgs {
     /// Draw as this display shows it: its size, colours and dither; `list` prints all
-    #[arg(long, value_name = "NAME", hide_possible_values = false)]
+    #[arg(
+        long,
+        value_name = "NAME",
+        hide_possible_values = false,
+        ignore_case = true
+    )]
     display: Option<DisplayChoice>,
 
     /// Width and height in pixels [default: the display's or else the scene's own]
@@ -20,7 +25,12 @@ pub(crate) struct PictureArgs {
     size: Option<Size>,
 
     /// Colours of the display [default: the display's or else rgb888]
-    #[arg(long, value_name = "NAME", hide_possible_values = false)]
+    #[arg(
+        long,
+        value_name = "NAME",
+        hide_possible_values = false,
+        ignore_case = true
+    )]
     color: Option<ColorName>,
 
     /// Show shades between two levels by a fixed pattern (ordered dither) [default: off without a
@@ -141,6 +151,20 @@ impl PictureArgs {
         match self.display {
             Some(DisplayChoice::Of(display)) => Some(display),
             Some(DisplayChoice::List) | None => None,
+        }
+    }
+}
+
+impl Default for PictureSettings {
+    /// What is drawn without any option.
+    fn default() -> Self {
+        Self {
+            size: None,
+            color: ColorName::Rgb888,
+            dither: false,
+            max_depth: DEFAULT_MAX_DEPTH,
+            knobs: Knobs::default(),
+            scalar: ScalarName::F32,
         }
     }
 }

@@ -75,6 +75,11 @@ impl SceneSource {
     pub(crate) fn read(&self) -> Result<Vec<u8>, Failure> {
         let cannot =
             |error: io::Error| Failure::Files(format!("cannot read {}: {error}", self.name()));
+        if matches!(self, Self::File(path) if path.as_os_str().is_empty()) {
+            return Err(Failure::Usage(
+                "the name of the scene is empty: name a file, or `-` for standard input".to_owned(),
+            ));
+        }
         let mut text = Vec::new();
         let input: &mut dyn Read = match self {
             Self::Default => return Ok(DEFAULT_SCENE.to_vec()),
@@ -143,7 +148,9 @@ impl SceneSource {
         let report = pools
             .parse(text)
             .map_err(|error| Failure::Scene(error_report(&self.name(), text, &error, renderer)))?;
-        Ok(report.short_light_line.map(|line| {
+        // The default scene is that of the paper, which nobody here can mend.
+        let short = report.short_light_line.filter(|_| *self != Self::Default);
+        Ok(short.map(|line| {
             format!(
                 "warning: {}:{line}: the light has 8 numbers instead of 9; the last is used twice",
                 self.name()

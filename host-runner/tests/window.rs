@@ -3,7 +3,7 @@
 //! `BLESS=1` writes the screen shot that the README shows.
 #![cfg(all(target_os = "linux", feature = "window"))]
 
-use std::io::Read;
+use std::io::{Read, Write};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -47,7 +47,11 @@ impl Screen {
             .stderr(Stdio::null())
             .spawn();
         let Ok(mut server) = server else {
-            println!("not run, because Xvfb is not installed");
+            // The test harness hides what is printed.
+            let _ = writeln!(
+                std::io::stderr(),
+                "not run, because Xvfb is not installed: apt-get install xvfb"
+            );
             return None;
         };
         let mut number = String::new();
@@ -243,6 +247,60 @@ fn few_colours_and_large_pixels_by_the_speed_of_a_core() {
     stderr.read_to_string(&mut said).unwrap();
     assert!(said.contains("on 128x64 takes 0."), "{said}");
     assert!(said.contains(" ms a row on average."), "{said}");
+}
+
+/// The command lines of the help text.
+fn examples() -> Vec<String> {
+    let help = Command::new(env!("CARGO_BIN_EXE_scanray"))
+        .args(["window", "--help"])
+        .output()
+        .unwrap();
+    let help = String::from_utf8(help.stdout).unwrap();
+    let lines = help.lines().map(str::trim);
+    let lines = lines.filter(|line| line.starts_with("scanray window "));
+    let commands = lines.filter_map(|line| line.split("  ").next());
+    commands.map(str::to_owned).collect()
+}
+
+#[test]
+fn every_example_opens_a_window() {
+    let Some(screen) = Screen::new() else { return };
+    let examples = examples();
+    assert_eq!(examples.len(), 4, "{examples:?}");
+    for example in examples {
+        let path = scene("reflective");
+        let words: Vec<&str> = example.split(' ').skip(1).collect();
+        let words: Vec<&str> = words
+            .into_iter()
+            .map(|word| if word == "scene.txt" { &*path } else { word })
+            .collect();
+        let program = screen.run(&words);
+        // Its first rows, in the middle of the upper half.
+        wait_until(&screen, [8, 300], |shown| shown.drawn_rows() > 0);
+        end(program);
+        wait_until(&screen, [8, 300], |shown| shown.drawn_rows() == 0);
+    }
+}
+
+#[test]
+fn a_window_without_memory_is_refused() {
+    let Some(screen) = Screen::new() else { return };
+    let program = format!(
+        "ulimit -v 3000000; exec '{}' window --size 60000x60000",
+        env!("CARGO_BIN_EXE_scanray")
+    );
+    let output = Command::new("sh")
+        .args(["-c", &program])
+        .env("DISPLAY", &screen.display)
+        .env("SDL_VIDEODRIVER", "x11")
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(4), "{said}");
+    assert!(
+        said.contains("GB of memory, more than there is: give a smaller"),
+        "{said}"
+    );
 }
 
 #[test]

@@ -107,7 +107,7 @@ fn draw(source: &SceneSource) -> Result<(), Failure> {
     let pixels = f32::pixels(&tracer);
     let picture: Picture<_, Exact<Rgb888>> = Picture::new(&pixels);
     let progress = Progress::new(format!("Drawing {}", source.name()), size.height.into());
-    let parts = Parts::new(picture, 0..size.height, &workers, &progress);
+    let parts = Parts::new(picture, 0..size.height, &workers, &progress)?;
     place.write(|file| {
         let mut rows = parts.flat_map(Canvas::into_rows_rgb888);
         let size = [size.width, size.height];

@@ -1,7 +1,7 @@
 //! `scanray diff`: how different two pictures are.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
@@ -10,8 +10,10 @@ use serde::Serialize;
 use crate::compare::{Comparison, DEFAULT_PIXELS_PER_DEGREE, flip_picture, level_picture};
 use crate::console::{print, say};
 use crate::failure::Failure;
-use crate::image::{self, Image};
+use crate::image::{self, Image, ImageFormat};
+use crate::memory::require;
 use crate::options::whole;
+use crate::output::Place;
 use crate::places::{refuse_input_as_output, single_place};
 
 /// The command line.
@@ -25,7 +27,7 @@ Examples:
   scanray diff old.png new.png --tolerance 2    fine if no channel is more than 2 levels off
   scanray render scene.txt -o - | scanray diff golden.png - --json
 
-Exit codes: 0 within the tolerance, 1 beyond it, 2 usage or other sizes, 4 files.")]
+Exit codes: 0 within the tolerance, 1 beyond it, 2 usage or other sizes, 4 files or memory.")]
 pub(crate) struct DiffArgs {
     /// The picture to compare with: PNG or PPM, `-` for standard input
     #[arg(value_name = "A")]
@@ -129,7 +131,7 @@ pub(crate) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     let place = match &args.output {
         Some(output) => {
             refuse_input_as_output(output, [&args.reference, &args.test])?;
-            Some(single_place(output)?)
+            Some(place_of_map(output)?)
         }
         None => None,
     };
@@ -160,6 +162,12 @@ pub(crate) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
             test.height
         )));
     }
+    let pixels = reference.width as u64 * reference.height as u64;
+    require(
+        16 * pixels,
+        "the comparison",
+        "compare smaller pictures, or parts of them",
+    )?;
     let comparison = Comparison::of(&reference, &test, args.pixels_per_degree);
     let measures = Measures {
         reference: args.reference.display().to_string(),
@@ -199,6 +207,18 @@ pub(crate) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
         0 => ExitCode::SUCCESS,
         _ => ExitCode::from(1),
     })
+}
+
+/// Where the picture of the differences goes.
+fn place_of_map(output: &Path) -> Result<(Place, ImageFormat), Failure> {
+    let (place, format) = single_place(output)?;
+    if format == ImageFormat::Gif {
+        return Err(Failure::Usage(format!(
+            "-o {}: a GIF file has too few colours for the differences; the name must end in .ppm or .png",
+            output.display()
+        )));
+    }
+    Ok((place, format))
 }
 
 impl Measures {

@@ -10,9 +10,9 @@ use clap::Args;
 
 use crate::console::say;
 use crate::failure::Failure;
-use crate::image::{self, Animation, Image, ImageFormat};
+use crate::image::{self, Animation, Image, ImageFormat, require_gif_memory};
 use crate::options::centiseconds;
-use crate::output::Place;
+use crate::output::{Place, Unwritten};
 use crate::part::PartRecord;
 use crate::places::{PictureFile, Steps, files, refuse_input_as_output, single_place};
 use crate::progress::Progress;
@@ -33,7 +33,7 @@ Examples:
 The bits are those of one run on one machine. Parts say in a comment what they are part of; docs/several-machines.md \
 tells how to share the work among hosts.
 
-Exit codes: 0 fine, 2 parts that do not fit together, 4 files.")]
+Exit codes: 0 fine, 2 parts that do not fit together, 4 files or memory.")]
 pub(crate) struct JoinArgs {
     /// Files of `scanray render` with --rows, --turntable or both, PPM or PNG, in any order
     #[arg(value_name = "PART", required = true)]
@@ -76,8 +76,9 @@ pub(crate) fn run(args: &JoinArgs) -> Result<ExitCode, Failure> {
     }
     let (size, steps) = (first.record.size, first.record.step.map(|(_, of)| of));
     parts.sort_by_key(|part| (part.record.step, part.record.rows.start));
-    let pictures = pictures(&parts, steps.unwrap_or(1))?;
-    refuse_gaps(&pictures, size.height)?;
+    let pictures = pictures(&parts, steps.unwrap_or(1));
+    refuse_doubles(&pictures)?;
+    refuse_gaps(&pictures, &parts[0].record)?;
 
     let turntable = steps.map(|of| Steps { range: 0..of, of });
     let place = single_place(&args.output)?;
@@ -143,11 +144,29 @@ impl<'a> Part<'a> {
             return Ok(());
         }
         Err(Failure::Usage(format!(
-            "{} is no part of the same picture as {}: {}",
+            "{} is no part of the same picture as {}: {}; draw both from the same scene with the same options",
             self.name(),
             first.name(),
             differences.join(", ")
         )))
+    }
+
+    /// Says that another part has rows of this one.
+    fn shares_rows(&self, other: &Self) -> String {
+        let [one, two] = [self, other].map(|part| fs::canonicalize(part.path).ok());
+        if one.is_some() && one == two {
+            return format!("{} is given twice: leave it out once", self.name());
+        }
+        let (mine, others) = (&self.record.rows, &other.record.rows);
+        let step = self.record.step;
+        format!(
+            "rows {}..{}{} are both in {} and in {}: leave one of them out",
+            others.start,
+            mine.end.min(others.end),
+            step.map_or(String::new(), |(step, _)| format!(" of step {step}")),
+            self.name(),
+            other.name()
+        )
     }
 
     /// The rows, each as bytes.
@@ -157,74 +176,89 @@ impl<'a> Part<'a> {
 }
 
 /// The parts of each picture, of `count`, from parts in order.
-fn pictures<'p, 'a>(parts: &'p [Part<'a>], count: u16) -> Result<Vec<&'p [Part<'a>]>, Failure> {
+fn pictures<'p, 'a>(parts: &'p [Part<'a>], count: u16) -> Vec<&'p [Part<'a>]> {
     let index = |part: &Part<'_>| part.record.step.map_or(0, |(index, _)| index);
-    let pictures: Vec<_> = (0..count)
-        .map(|step| {
-            let start = parts.partition_point(|part| index(part) < step);
-            let end = parts.partition_point(|part| index(part) <= step);
-            &parts[start..end]
-        })
-        .collect();
-    let missing: Vec<u16> = (0..count)
-        .zip(&pictures)
-        .filter(|(_, parts)| parts.is_empty())
-        .map(|(step, _)| step)
-        .collect();
-    if !missing.is_empty() {
-        let ranges = ranges(&missing);
-        return Err(Failure::Usage(format!(
-            "steps {} of the turntable's {count} are missing: draw them with scanray render --steps {}",
-            ranges.join(", "),
-            ranges[0]
-        )));
-    }
-    Ok(pictures)
+    let of_step = |step| {
+        let start = parts.partition_point(|part| index(part) < step);
+        let end = parts.partition_point(|part| index(part) <= step);
+        &parts[start..end]
+    };
+    (0..count).map(of_step).collect()
 }
 
-/// Numbers in order as ranges `A..B`.
-fn ranges(numbers: &[u16]) -> Vec<String> {
-    numbers
-        .chunk_by(|a, b| a + 1 == *b)
-        .map(|run| format!("{}..{}", run[0], run[0] as usize + run.len()))
-        .collect()
-}
-
-/// Refuses pictures that lack rows, or have rows twice.
-fn refuse_gaps(pictures: &[&[Part<'_>]], height: u16) -> Result<(), Failure> {
+/// Refuses pictures that have rows twice.
+fn refuse_doubles(pictures: &[&[Part<'_>]]) -> Result<(), Failure> {
     for parts in pictures {
-        let mut missing = Vec::new();
-        // The rows above `next` are there; the part that reached farthest down has the last of them.
-        let (mut next, mut lowest): (u16, Option<&Part<'_>>) = (0, None);
+        // The part that reached farthest down so far.
+        let mut lowest: Option<&Part<'_>> = None;
         for part in *parts {
-            let Range { start, end } = part.record.rows;
-            if let Some(before) = lowest.filter(|_| start < next) {
-                return Err(Failure::Usage(format!(
-                    "rows {start}..{} are both in {} and in {}: leave one of them out",
-                    end.min(next),
-                    before.name(),
-                    part.name()
-                )));
+            let start = part.record.rows.start;
+            if let Some(before) = lowest.filter(|before| start < before.record.rows.end) {
+                return Err(Failure::Usage(before.shares_rows(part)));
             }
-            missing.extend(next..start);
-            (next, lowest) = (end, Some(part));
-        }
-        missing.extend(next..height);
-        if !missing.is_empty() {
-            let step = parts.first().and_then(|part| part.record.step);
-            let step = step.map_or(String::new(), |(step, _)| format!(" of step {step}"));
-            let ranges = ranges(&missing);
-            return Err(Failure::Usage(format!(
-                "rows {}{step} are missing, of 0..{height}: draw them with scanray render --rows {}",
-                ranges.join(", "),
-                ranges[0]
-            )));
+            lowest = Some(part);
         }
     }
     Ok(())
 }
 
-/// Writes a picture, part by part, so that no more than one is in memory.
+/// Refuses pictures that lack rows, and tells how to draw them all. `first` is any of the parts.
+fn refuse_gaps(pictures: &[&[Part<'_>]], first: &PartRecord) -> Result<(), Failure> {
+    let height = first.size.height;
+    // The rows that each picture lacks.
+    let gaps: Vec<Vec<Range<u16>>> = pictures
+        .iter()
+        .map(|parts| {
+            let starts = parts.iter().map(|part| part.record.rows.start);
+            let ends = parts.iter().map(|part| part.record.rows.end);
+            let between = [0].into_iter().chain(ends).zip(starts.chain([height]));
+            let between = between.map(|(end, start)| end..start);
+            between.filter(|rows| !rows.is_empty()).collect()
+        })
+        .collect();
+    let (mut missing, mut commands) = (Vec::new(), Vec::new());
+    let mut step = 0;
+    for run in gaps.chunk_by(|a, b| a == b) {
+        let steps = step..step + run.len();
+        step = steps.end;
+        for rows in &run[0] {
+            let Range { start, end } = rows;
+            let is_whole = first.step.is_some() && *rows == (0..height);
+            let (mut what, mut option) = match is_whole {
+                true => (String::new(), String::new()),
+                false => (
+                    format!("rows {start}..{end}"),
+                    format!(" --rows {start}..{end}"),
+                ),
+            };
+            if let Some((_, of)) = first.step {
+                let Range { start, end } = steps;
+                let of_steps = if is_whole { "steps " } else { " of steps " };
+                what += &format!("{of_steps}{start}..{end}");
+                option = format!(" --turntable {of} --steps {start}..{end}{option}");
+            }
+            missing.push(what);
+            commands.push(format!(
+                "\n  scanray render SCENE{option}{} -o FILE",
+                first.options()
+            ));
+        }
+    }
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let whole = match first.step {
+        Some((_, of)) => format!("rows 0..{height} of steps 0..{of}"),
+        None => format!("rows 0..{height}"),
+    };
+    Err(Failure::Usage(format!(
+        "{} of {whole} are missing; draw them, and join them with what is there:{}",
+        missing.join(", "),
+        commands.concat()
+    )))
+}
+
+/// Writes a picture.
 fn write_picture(
     file: &PictureFile,
     parts: &[Part<'_>],
@@ -240,32 +274,48 @@ fn write_picture(
     });
     let comment = whole.map(|record| record.words());
     let size = [record.size.width, record.size.height];
-    file.place.write(|out| {
-        let mut failure = None;
-        let mut rows = parts
-            .iter()
-            .map_while(|part| match part.rows() {
-                Ok(image) => {
-                    progress.advance(1);
-                    Some(image)
-                }
-                Err(error) => {
-                    failure = Some(error);
-                    None
-                }
-            })
-            .flat_map(|image| {
-                let rows = image.rgb888.chunks_exact(3 * image.width);
-                rows.map(<[u8]>::to_vec).collect::<Vec<_>>()
-            });
-        let result = image::write(file.format, out, size, comment.as_deref(), &mut rows);
-        drop(rows);
-        match failure {
-            Some(Failure::Files(words)) => Err(io::Error::other(words)),
-            Some(_) => Err(io::Error::other("a part cannot be read any more")),
-            None => result,
-        }
+    file.place.write_made(|out| {
+        with_rows(parts, progress, |rows| {
+            image::write(file.format, out, size, comment.as_deref(), rows)
+        })
     })
+}
+
+/// Lets `write` have the rows of a picture, part by part, so that no more than one is in memory.
+fn with_rows(
+    parts: &[Part<'_>],
+    progress: &Progress,
+    write: impl FnOnce(&mut dyn Iterator<Item = Vec<u8>>) -> io::Result<()>,
+) -> Result<(), Unwritten> {
+    let mut failure = None;
+    let mut rows = parts
+        .iter()
+        .map_while(|part| match part.rows() {
+            Ok(image) => {
+                progress.advance(1);
+                Some(image)
+            }
+            Err(error) => {
+                failure = Some(error);
+                None
+            }
+        })
+        .flat_map(
+            |Image {
+                 width,
+                 height,
+                 rgb888,
+             }| {
+                (0..height).map(move |y| rgb888[3 * width * y..][..3 * width].to_vec())
+            },
+        );
+    let written = write(&mut rows);
+    drop(rows);
+    match failure {
+        // What was written ends too early.
+        Some(failure) => Err(failure.into()),
+        None => Ok(written?),
+    }
 }
 
 /// Writes pictures into a GIF file.
@@ -276,16 +326,12 @@ fn write_animation(
     delay: u16,
     progress: &Progress,
 ) -> Result<u64, Failure> {
-    let in_memory = |error: io::Error| Failure::Files(format!("cannot make the GIF: {error}"));
-    let mut animation = Animation::new(size, delay).map_err(in_memory)?;
-    for parts in pictures {
-        let mut pixels = Vec::new();
-        for part in *parts {
-            pixels.append(&mut part.rows()?.rgb888);
-            progress.advance(1);
+    require_gif_memory(size)?;
+    file.place.write_made(|out| {
+        let mut animation = Animation::new(out, size, delay)?;
+        for parts in pictures {
+            with_rows(parts, progress, |rows| animation.add(rows))?;
         }
-        animation.add(&pixels).map_err(in_memory)?;
-    }
-    let encoded = animation.finish().map_err(in_memory)?;
-    file.place.write(|out| out.write_all(&encoded))
+        Ok(animation.finish()?)
+    })
 }

@@ -36,11 +36,11 @@ back to the same bits. Each ray tells its hit, then its secondary rays, then its
 colour and the secondary rays' results times their factors, clamped to 0…1.")]
 pub(crate) struct PixelArgs {
     /// Scene file, `-` for standard input
-    #[arg(value_name = "SCENE")]
-    scene: PathBuf,
+    #[arg(value_name = "SCENE", required_unless_present = "display")]
+    scene: Option<PathBuf>,
 
     /// Columns and rows of pixels
-    #[arg(value_name = "X,Y", required = true)]
+    #[arg(value_name = "X,Y", required_unless_present = "display")]
     pixels: Vec<PixelPlace>,
 
     #[command(flatten)]
@@ -91,7 +91,13 @@ pub(crate) fn run(args: &PixelArgs) -> Result<ExitCode, Failure> {
 }
 
 fn tell<T: HostScalar>(args: &PixelArgs, settings: &PictureSettings) -> Result<(), Failure> {
-    let source = SceneSource::named(Some(&args.scene));
+    // Only the list of displays needs neither.
+    let (Some(path), [_, ..]) = (&args.scene, &*args.pixels) else {
+        return Err(Failure::Usage(
+            "name a scene and its pixels, such as scanray pixel scene.txt 4,3".to_owned(),
+        ));
+    };
+    let source = SceneSource::named(Some(path));
     let text = source.read()?;
     let mut pools = T::pools();
     source.load_text(&text, &mut pools)?;

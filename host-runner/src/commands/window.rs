@@ -23,6 +23,7 @@ use crate::drawing::Workers;
 use crate::failure::Failure;
 use crate::host_pixels::Drawing;
 use crate::host_tracer::HostTracer;
+use crate::memory::require;
 use crate::options::{ScalarName, with_color};
 use crate::picture_args::{PictureArgs, PictureSettings};
 use crate::pools::HostScalar;
@@ -228,9 +229,15 @@ fn animate(
 ) -> Result<(), Failure> {
     let [width, height] = [resolution.width, resolution.height].map(u32::from);
     let fitting = (960 / width).min(720 / height).clamp(1, 32);
-    let settings = OutputSettingsBuilder::new()
-        .scale(scale.unwrap_or(fitting))
-        .build();
+    let scale = scale.unwrap_or(fitting);
+    let settings = OutputSettingsBuilder::new().scale(scale).build();
+    // The display, and the screen's pixels, which the simulator and SDL have once each.
+    let bytes = u64::from(width) * u64::from(height) * (3 + 2 * 4 * u64::from(scale).pow(2));
+    require(
+        bytes,
+        format_args!("a window of {width}x{height} pixels, each {scale}x{scale} on the screen,"),
+        "give a smaller --size or --scale",
+    )?;
     let mut display = SimulatorDisplay::<Rgb888>::new(Size::new(width, height));
     let mut window = open(title, &settings, &display)?;
     let (mut start, mut next, mut due) = (Instant::now(), 0, Duration::ZERO);

@@ -2,10 +2,12 @@
 
 use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
-use std::io;
+use std::io::{self, Write};
 
 use color_quant::NeuQuant;
-use gif::{DisposalMethod, Encoder, Frame, Repeat};
+use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
+
+use crate::memory::{Shortage, require, room};
 
 /// Colours of a palette.
 const PALETTE: usize = 256;
@@ -13,26 +15,55 @@ const PALETTE: usize = 256;
 /// Of so many pixels one is looked at when a palette is chosen; 1 is the best and slowest.
 const SAMPLING: i32 = 3;
 
-/// Pictures of the same size, encoded into memory one after the other.
-pub(crate) struct Animation {
-    encoder: Encoder<Vec<u8>>,
+/// All colours of 8 bits a channel.
+const COLORS: usize = 1 << 24;
+
+/// Bytes that a pixel takes while it is encoded: its colour, its index, and the codes, of at most 12 bits.
+const PIXEL_BYTES: u64 = 4 + 1 + 2;
+
+/// What takes less memory.
+const REMEDY: &str =
+    "draw it smaller with --size, or into .ppm or .png files, which are written row by row";
+
+/// Pictures of the same size, written into a file one after the other.
+pub(crate) struct Animation<'w> {
+    encoder: Encoder<&'w mut dyn Write>,
     width: u16,
     height: u16,
     /// How long each picture is shown, in hundredths of a second.
     delay: u16,
 }
 
-impl Animation {
+/// Makes sure that there is memory for a picture of this size, all of which is looked at before any is written.
+///
+/// # Errors
+///
+/// [`Shortage`].
+pub(crate) fn require_memory([width, height]: [u16; 2]) -> Result<(), Shortage> {
+    let pixels = u64::from(width) * u64::from(height);
+    // The index of each colour, for pictures of many.
+    let bytes = PIXEL_BYTES * pixels + 2 * COLORS as u64;
+    require(
+        bytes,
+        format_args!("a GIF of {width}x{height} pixels"),
+        REMEDY,
+    )
+}
+
+impl<'w> Animation<'w> {
     /// No pictures yet. They will be repeated for ever, unless there is only one.
     ///
     /// # Errors
     ///
-    /// None: nothing but memory is written to.
-    pub(crate) fn new([width, height]: [u16; 2], delay: u16) -> io::Result<Self> {
-        let mut encoder = Encoder::new(Vec::new(), width, height, &[]).map_err(io::Error::other)?;
-        encoder
-            .set_repeat(Repeat::Infinite)
-            .map_err(io::Error::other)?;
+    /// Those of `file`, and a [`Shortage`] of memory.
+    pub(crate) fn new(
+        file: &'w mut dyn Write,
+        [width, height]: [u16; 2],
+        delay: u16,
+    ) -> io::Result<Self> {
+        require_memory([width, height])?;
+        let mut encoder = Encoder::new(file, width, height, &[]).map_err(io_error)?;
+        encoder.set_repeat(Repeat::Infinite).map_err(io_error)?;
         Ok(Self {
             encoder,
             width,
@@ -41,70 +72,85 @@ impl Animation {
         })
     }
 
-    /// Appends a picture: all its pixels, three bytes each. Up to 256 different colours are kept exactly;
+    /// Appends a picture: all its rows, three bytes a pixel. Up to 256 different colours are kept exactly;
     /// more become the 256 that a neural network settles on.
     ///
     /// # Errors
     ///
-    /// None: nothing but memory is written to.
-    pub(crate) fn add(&mut self, rgb888: &[u8]) -> io::Result<()> {
-        let (palette, indices) = exact(rgb888).unwrap_or_else(|| approximate(rgb888));
+    /// Those of the file, and a [`Shortage`] of memory.
+    pub(crate) fn add(&mut self, rows: &mut dyn Iterator<Item = Vec<u8>>) -> io::Result<()> {
+        let (width, height) = (self.width, self.height);
+        let pixels = usize::from(width) * usize::from(height);
+        let what = format_args!("a GIF of {width}x{height} pixels");
+        let mut rgba = room(4 * pixels, what, REMEDY)?;
+        for row in rows {
+            let pixels = row.chunks_exact(3);
+            rgba.extend(pixels.flat_map(|pixel| [pixel[0], pixel[1], pixel[2], u8::MAX]));
+        }
+        let mut indices = room(pixels, what, REMEDY)?;
+        let palette = match exact(&rgba, &mut indices) {
+            Some(palette) => palette,
+            None => approximate(&rgba, &mut indices)?,
+        };
+        drop(rgba);
         let frame = Frame {
-            width: self.width,
-            height: self.height,
+            width,
+            height,
             delay: self.delay,
             dispose: DisposalMethod::Keep,
             palette: Some(palette),
             buffer: Cow::Owned(indices),
             ..Frame::default()
         };
-        self.encoder.write_frame(&frame).map_err(io::Error::other)
+        self.encoder.write_frame(&frame).map_err(io_error)
     }
 
-    /// The file.
+    /// Ends the file.
     ///
     /// # Errors
     ///
-    /// None: nothing but memory is written to.
-    pub(crate) fn finish(self) -> io::Result<Vec<u8>> {
-        self.encoder.into_inner().map_err(io::Error::other)
+    /// Those of the file.
+    pub(crate) fn finish(self) -> io::Result<()> {
+        self.encoder.into_inner().map(drop).map_err(io_error)
+    }
+}
+
+fn io_error(error: EncodingError) -> io::Error {
+    match error {
+        EncodingError::Io(error) => error,
+        other => io::Error::other(other),
     }
 }
 
 /// The colours themselves, in order, and the index of each pixel's, if a palette has room for all.
-fn exact(rgb888: &[u8]) -> Option<(Vec<u8>, Vec<u8>)> {
+fn exact(rgba: &[u8], indices: &mut Vec<u8>) -> Option<Vec<u8>> {
     let mut colors = BTreeSet::new();
-    for pixel in rgb888.chunks_exact(3) {
+    for pixel in rgba.chunks_exact(4) {
         if colors.insert(pixel) && colors.len() > PALETTE {
             return None;
         }
     }
     let index_of: HashMap<&[u8], u8> = colors.iter().copied().zip(0..=u8::MAX).collect();
-    let indices = rgb888.chunks_exact(3).map(|pixel| index_of[pixel]);
-    Some((
-        colors
-            .iter()
-            .flat_map(|color| color.iter().copied())
-            .collect(),
-        indices.collect(),
-    ))
+    indices.extend(rgba.chunks_exact(4).map(|pixel| index_of[pixel]));
+    let rgb = colors.iter().flat_map(|color| color[..3].iter().copied());
+    Some(rgb.collect())
 }
 
 /// 256 colours near all others, and the index of the one nearest to each pixel.
-fn approximate(rgb888: &[u8]) -> (Vec<u8>, Vec<u8>) {
-    let rgba: Vec<u8> = rgb888
-        .chunks_exact(3)
-        .flat_map(|pixel| [pixel[0], pixel[1], pixel[2], u8::MAX])
-        .collect();
-    let network = NeuQuant::new(SAMPLING, PALETTE, &rgba);
-    let mut known = HashMap::new();
-    let indices = rgba.chunks_exact(4).map(|pixel| {
-        *known
-            .entry(pixel)
-            .or_insert_with(|| network.index_of(pixel) as u8)
-    });
-    let indices = indices.collect();
-    (network.color_map_rgb(), indices)
+fn approximate(rgba: &[u8], indices: &mut Vec<u8>) -> Result<Vec<u8>, Shortage> {
+    let network = NeuQuant::new(SAMPLING, PALETTE, rgba);
+    // One more than the index of each colour that was met before.
+    require(2 * COLORS as u64, "a GIF of many colours", REMEDY)?;
+    let mut known = vec![0_u16; COLORS];
+    indices.extend(rgba.chunks_exact(4).map(|pixel| {
+        let [r, g, b] = [pixel[0], pixel[1], pixel[2]].map(usize::from);
+        let known = &mut known[r << 16 | g << 8 | b];
+        if *known == 0 {
+            *known = 1 + network.index_of(pixel) as u16;
+        }
+        (*known - 1) as u8
+    }));
+    Ok(network.color_map_rgb())
 }
 
 #[cfg(test)]
@@ -127,11 +173,14 @@ mod tests {
     }
 
     fn encoded(size: [u16; 2], pictures: &[&[u8]]) -> Vec<u8> {
-        let mut animation = Animation::new(size, 7).unwrap();
+        let mut file = Vec::new();
+        let mut animation = Animation::new(&mut file, size, 7).unwrap();
         for picture in pictures {
-            animation.add(picture).unwrap();
+            let rows = picture.chunks_exact(3 * usize::from(size[0]));
+            animation.add(&mut rows.map(<[u8]>::to_vec)).unwrap();
         }
-        animation.finish().unwrap()
+        animation.finish().unwrap();
+        file
     }
 
     #[test]

@@ -9,7 +9,7 @@ use std::fs::File;
 use std::io::{self, Read, Write};
 use std::path::Path;
 
-pub(crate) use self::gif::Animation;
+pub(crate) use self::gif::{Animation, require_memory as require_gif_memory};
 use crate::failure::Failure;
 
 /// A kind of image file.
@@ -53,6 +53,9 @@ pub(crate) struct Image {
 /// No file is longer than this: no picture that is drawn here is (65,535² pixels would be), but nobody
 /// compares such pictures, and an endless file must not fill all of the memory.
 const MAX_FILE_BYTES: u64 = 4 << 30;
+
+/// What takes less memory.
+const SMALLER: &str = "take a smaller picture";
 
 impl Image {
     /// Reads a PNG or PPM file, whatever its name; `-` is standard input.
@@ -109,7 +112,7 @@ pub(crate) fn comment(file: &[u8]) -> Option<String> {
 ///
 /// # Errors
 ///
-/// Those of `file`.
+/// Those of `file`, and a shortage of memory.
 pub(crate) fn write(
     format: ImageFormat,
     file: &mut dyn Write,
@@ -121,9 +124,9 @@ pub(crate) fn write(
         ImageFormat::Ppm => ppm::write(file, width, height, comment, rows),
         ImageFormat::Png => png::write(file, width, height, comment, rows),
         ImageFormat::Gif => {
-            let mut animation = Animation::new([width, height], 0)?;
-            animation.add(&rows.flatten().collect::<Vec<u8>>())?;
-            file.write_all(&animation.finish()?)
+            let mut animation = Animation::new(file, [width, height], 0)?;
+            animation.add(rows)?;
+            animation.finish()
         }
     }
 }

@@ -4,7 +4,8 @@ use std::io::{self, Cursor, Write};
 
 use png::{BitDepth, ColorType, Decoder, Encoder, Transformations};
 
-use super::Image;
+use super::{Image, SMALLER};
+use crate::memory::room;
 
 /// The keyword of a text chunk.
 const COMMENT: &str = "Comment";
@@ -51,7 +52,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Image, String> {
     let size = reader
         .output_buffer_size()
         .ok_or("the picture is too large for this machine")?;
-    let mut samples = vec![0; size];
+    let mut samples: Vec<u8> = room(size, "the picture", SMALLER)?;
+    samples.resize(size, 0);
     let frame = reader
         .next_frame(&mut samples)
         .map_err(|error| error.to_string())?;

@@ -2,7 +2,8 @@
 
 use std::io::{self, Write};
 
-use super::Image;
+use super::{Image, SMALLER};
+use crate::memory::room;
 
 pub(super) fn write(
     file: &mut dyn Write,
@@ -69,10 +70,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Image, String> {
                 .iter()
                 .fold(0, |value, byte| value << 8 | usize::from(*byte))
         };
-        samples
-            .chunks_exact(wide)
-            .map(|sample| level(value(sample)))
-            .collect::<Result<_, _>>()?
+        let mut levels = room(count, "the picture", SMALLER)?;
+        for sample in samples.chunks_exact(wide) {
+            levels.push(level(value(sample))?);
+        }
+        levels
     } else {
         // A sample takes two bytes at least, which bounds what is allocated for a wrong header.
         let mut samples = Vec::with_capacity(count.min(rest.len() / 2 + 1));

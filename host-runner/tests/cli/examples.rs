@@ -1,10 +1,9 @@
 //! The examples of every help text are run.
 
 use std::fs;
-use std::io::Write;
 use std::process::Command;
 
-use crate::program::{Folder, SMALL_SCENE, scene};
+use crate::program::{Folder, SMALL_SCENE, scene, tell};
 
 /// Programs in examples that need not be installed.
 const OTHER_PROGRAMS: [&str; 2] = ["pnmtojpeg", "jq"];
@@ -82,10 +81,9 @@ fn every_example_of_every_command_works() {
                 .iter()
                 .find(|name| example.contains(*name) && !is_installed(name));
             if let Some(missing) = missing {
-                let _ = writeln!(
-                    std::io::stderr(),
+                tell(&format!(
                     "not run, because {missing} is not installed: {example}"
-                );
+                ));
                 continue;
             }
             let run = Command::new("sh")

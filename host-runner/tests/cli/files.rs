@@ -97,9 +97,10 @@ fn a_reader_that_leaves_does_not_cost_the_pictures() {
 #[cfg(target_os = "linux")]
 mod linux {
     use std::fs::{File, OpenOptions};
-    use std::process::{Command, Stdio};
+    use std::os::unix::process::ExitStatusExt;
+    use std::process::{Child, Command, Stdio};
     use std::thread::sleep;
-    use std::time::Duration;
+    use std::time::{Duration, Instant};
 
     use crate::program::{Folder, SMALL_SCENE};
 
@@ -144,31 +145,116 @@ mod linux {
         assert_eq!(folder.names(), ["output.ppm"]);
     }
 
+    /// The program, which ends when it is interrupted even where the tests are not, as in a job in the background.
+    fn interruptible(folder: &Folder, arguments: &[&str]) -> Command {
+        let program = folder.program(arguments);
+        let mut command = Command::new("env");
+        command
+            .arg("--default-signal=INT,TERM,HUP")
+            .arg(program.get_program())
+            .args(program.get_args())
+            .current_dir(folder.path(""))
+            .stderr(File::create(folder.path("errors")).unwrap());
+        command
+    }
+
+    fn send(signal: &str, child: &Child) {
+        let process = child.id().to_string();
+        let kill = Command::new("kill").args([signal, &process]).status();
+        assert!(kill.unwrap().success());
+    }
+
+    /// Waits until there is a file of such a name.
+    #[track_caller]
+    fn wait_for(folder: &Folder, end: &str) {
+        let start = Instant::now();
+        while !folder.names().iter().any(|name| name.ends_with(end)) {
+            assert!(start.elapsed() < Duration::from_secs(60), "no {end}");
+            sleep(Duration::from_millis(5));
+        }
+    }
+
+    /// Takes minutes.
+    const LONG: [&str; 6] = [
+        "--size",
+        "8000x2000",
+        "--max-depth",
+        "32",
+        "--scalar",
+        "f64",
+    ];
+
     #[test]
     fn an_interrupted_run_leaves_the_older_picture_alone() {
+        for (signal, number) in [("-INT", 2), ("-TERM", 15)] {
+            let folder = Folder::new();
+            folder.write("output.ppm", "older");
+            let arguments = [&["render"], &LONG[..]].concat();
+            let mut child = interruptible(&folder, &arguments).spawn().unwrap();
+            sleep(Duration::from_millis(300));
+            send(signal, &child);
+            assert_eq!(child.wait().unwrap().signal(), Some(number));
+            assert_eq!(folder.read("output.ppm"), b"older");
+            assert_eq!(folder.names(), ["errors", "output.ppm"]);
+        }
+    }
+
+    #[test]
+    fn an_interrupted_turntable_leaves_nothing_unfinished_and_tells_how_to_go_on() {
         let folder = Folder::new();
-        folder.write("output.ppm", "older");
-        let errors = File::create(folder.path("errors")).unwrap();
-        let mut child = folder
-            // The whole picture would take minutes.
-            .program(&[
-                "render",
-                "--size",
-                "8000x2000",
-                "--max-depth",
-                "32",
-                "--scalar",
-                "f64",
-            ])
-            .stderr(errors)
-            .spawn()
-            .unwrap();
-        sleep(Duration::from_millis(300));
-        let process = child.id().to_string();
-        let kill = Command::new("kill").args(["-INT", &process]).status();
-        assert!(kill.unwrap().success());
-        assert!(!child.wait().unwrap().success());
-        assert_eq!(folder.read("output.ppm"), b"older");
-        assert_eq!(folder.names(), ["errors", "output.ppm"]);
+        let turntable = [&["render", "--turntable", "9", "-o"][..], &["t.gif"], &LONG].concat();
+        let mut child = interruptible(&folder, &turntable).spawn().unwrap();
+        wait_for(&folder, ".part");
+        send("-INT", &child);
+        assert_eq!(child.wait().unwrap().signal(), Some(2));
+        assert_eq!(folder.names(), ["errors"]);
+        let said = String::from_utf8(folder.read("errors")).unwrap();
+        assert!(
+            said.contains("Interrupted: a GIF file is written whole or not at all."),
+            "{said}"
+        );
+
+        let turntable = [
+            "render",
+            "--turntable",
+            "2000",
+            "-o",
+            "t.ppm",
+            "--size",
+            "80x60",
+        ];
+        let mut child = interruptible(&folder, &turntable).spawn().unwrap();
+        wait_for(&folder, "t-0000.ppm");
+        send("-TERM", &child);
+        assert_eq!(child.wait().unwrap().signal(), Some(15));
+        let said = String::from_utf8(folder.read("errors")).unwrap();
+        let rest = said.split("To go on, add --steps ").nth(1).unwrap();
+        let next: usize = rest.split("..2000").next().unwrap().parse().unwrap();
+        // All before are there, and whole.
+        let names = folder.names();
+        assert_eq!(
+            names.iter().filter(|name| name.starts_with("t-")).count(),
+            next,
+            "{said}"
+        );
+        assert!(!names.iter().any(|name| name.ends_with(".part")));
+        let sizes = (0..next).map(|step| folder.ppm(&format!("t-{step:04}.ppm")).width);
+        assert!(sizes.eq(std::iter::repeat_n(80, next)));
+    }
+
+    #[test]
+    fn what_is_started_with_signals_ignored_goes_on() {
+        let folder = Folder::new();
+        let script = format!(
+            "trap '' INT; exec '{}' render --turntable 60 -o t.gif --size 80x60",
+            env!("CARGO_BIN_EXE_scanray")
+        );
+        let mut command = Command::new("sh");
+        command.args(["-c", &script]).current_dir(folder.path(""));
+        let mut child = command.stderr(Stdio::null()).spawn().unwrap();
+        wait_for(&folder, ".part");
+        send("-INT", &child);
+        assert!(child.wait().unwrap().success());
+        assert_eq!(folder.names(), ["t.gif"]);
     }
 }

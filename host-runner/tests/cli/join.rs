@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use crate::program::{Folder, Picture, SMALL_SCENE, scene};
+use crate::program::{Folder, Picture, SMALL_SCENE, scene, tell};
 
 /// Draws rows of a picture into files.
 fn draw_parts(folder: &Folder, options: &[&str], parts: &[(&str, &str)]) {
@@ -122,6 +122,8 @@ fn what_does_not_fit_together_is_refused() {
     draw("other.txt", &[], "3..9", "other.ppm");
     draw("scene.txt", &["--color", "rgb565"], "3..9", "color.ppm");
     draw("scene.txt", &["--max-depth", "4"], "3..9", "depth.ppm");
+    draw("scene.txt", &["--scalar", "f64"], "3..9", "double.ppm");
+    folder.write("copy.ppm", folder.read("a.ppm"));
     draw("scene.txt", &[], "5..7", "middle.ppm");
     draw("scene.txt", &[], "2..9", "early.png");
     draw(
@@ -137,27 +139,38 @@ fn what_does_not_fit_together_is_refused() {
     for (parts, words) in [
         (
             &["other.ppm"][..],
-            &*format!("other.ppm {no_part_of}scene "),
+            &*format!("other.ppm {no_part_of}another scene, in its camera, light, "),
         ),
-        (&["color.ppm"], "color rgb565 instead of rgb888"),
-        (&["depth.ppm"], "max-depth 4 instead of 5"),
-        (&["size.ppm"], "size 8x6 instead of 8x9"),
+        (&["color.ppm"], "--color rgb565 instead of rgb888"),
+        (&["depth.ppm"], "--max-depth 4 instead of 5"),
+        (&["size.ppm"], "--size 8x6 instead of 8x9"),
         (
             &["turn-001.ppm"],
-            "turntable 2 instead of none, about 0,3 instead of none",
+            "--turntable 2 instead of none, --about 0,3 instead of none",
         ),
         (
             &[],
-            "rows 3..9 are missing, of 0..9: draw them with scanray render --rows 3..9",
+            "rows 3..9 of rows 0..9 are missing; draw them, and join them with what is there:\n  scanray render SCENE --rows 3..9 --size 8x9 -o FILE\n",
         ),
-        (&["middle.ppm"], "rows 3..5, 7..9 are missing"),
+        (
+            &["middle.ppm"],
+            "rows 3..5, rows 7..9 of rows 0..9 are missing",
+        ),
         (
             &["early.png"],
             "rows 2..3 are both in a.ppm and in early.png",
         ),
         (
-            &["a.ppm", "b.ppm"],
-            "rows 0..3 are both in a.ppm and in a.ppm",
+            &["b.ppm", "./a.ppm"],
+            "a.ppm is given twice: leave it out once",
+        ),
+        (
+            &["b.ppm", "copy.ppm"],
+            "rows 0..3 are both in a.ppm and in copy.ppm",
+        ),
+        (
+            &["double.ppm"],
+            "as a.ppm: --scalar f64 instead of f32; draw both",
         ),
     ] {
         let said = folder.fail(2, &[&["join", "-o", "joined.ppm", "a.ppm"], parts].concat());
@@ -165,10 +178,9 @@ fn what_does_not_fit_together_is_refused() {
     }
     let said = folder.fail(2, &["join", "turn-001.ppm", "-o", "turn.gif"]);
     assert!(
-        said.contains("steps 0..1 of the turntable's 2 are missing"),
+        said.contains("steps 0..1, rows 0..3 of steps 1..2 of rows 0..9 of steps 0..2 are missing"),
         "{said}"
     );
-    assert!(said.contains("scanray render --steps 0..1"), "{said}");
     for (part, words) in [
         ("missing.ppm", "cannot read missing.ppm: "),
         (
@@ -201,6 +213,60 @@ fn what_does_not_fit_together_is_refused() {
             .contains("--output <FILE>")
     );
     assert!(!folder.names().iter().any(|name| name.starts_with("joined")));
+}
+
+#[test]
+fn what_is_missing_is_drawn_by_the_commands_that_are_told() {
+    let folder = Folder::new();
+    folder.write("scene.txt", SMALL_SCENE);
+    let options = [
+        "scene.txt",
+        "--size",
+        "16x12",
+        "--color",
+        "gray4",
+        "--dither",
+        "--samples",
+        "4",
+    ];
+    let turntable = [&["render"], &options[..], &["--turntable", "6", "-o"]].concat();
+    folder.succeed(&[&turntable[..], &["whole.gif"]].concat());
+    folder.succeed(&[&turntable[..], &["a.ppm", "--steps", "1..2"]].concat());
+    folder.succeed(
+        &[
+            &turntable[..],
+            &["b.ppm", "--steps", "2..5", "--rows", "3..8"],
+        ]
+        .concat(),
+    );
+    let parts = ["a-001.ppm", "b-002.ppm", "b-003.ppm", "b-004.ppm"];
+    let said = folder.fail(2, &[&["join", "-o", "joined.gif"], &parts[..]].concat());
+    assert!(
+        said.contains(
+            "steps 0..1, rows 0..3 of steps 2..5, rows 8..12 of steps 2..5, steps 5..6 of"
+        ),
+        "{said}"
+    );
+    let mut all: Vec<String> = parts.map(str::to_owned).to_vec();
+    for (index, command) in said.lines().skip(1).enumerate() {
+        let words = command
+            .trim()
+            .strip_prefix("scanray render SCENE ")
+            .unwrap();
+        let words = words.strip_suffix(" -o FILE").unwrap();
+        let folder_of_part = format!("part{index}");
+        std::fs::create_dir(folder.path(&folder_of_part)).unwrap();
+        let file = format!("{folder_of_part}/c.ppm");
+        let arguments: Vec<&str> = words.split(' ').collect();
+        folder.succeed(&[&["render", "scene.txt", "-o", &file], &arguments[..]].concat());
+        for entry in std::fs::read_dir(folder.path(&folder_of_part)).unwrap() {
+            all.push(entry.unwrap().path().to_str().unwrap().to_owned());
+        }
+    }
+    assert_eq!(all.len(), 4 + 1 + 3 + 3 + 1);
+    let all: Vec<&str> = all.iter().map(String::as_str).collect();
+    folder.succeed(&[&["join", "-o", "joined.gif"], &all[..]].concat());
+    assert!(folder.read("joined.gif") == folder.read("whole.gif"));
 }
 
 /// The scripts of docs/several-machines.md by the names in their comments, smaller than there.
@@ -267,7 +333,7 @@ fn gnu_parallel_draws_the_pictures_of_one_machine() {
         .args(["-c", "parallel --version | grep -q GNU"])
         .status();
     if !is_installed.is_ok_and(|status| status.success()) {
-        println!("not run, because GNU parallel is not installed");
+        tell("not run, because GNU parallel is not installed: several machines");
         return;
     }
     let folder = furnished();
@@ -325,8 +391,10 @@ fn other_programs_read_the_parts() {
                 assert!(run.stdout.ends_with(&pixels), "{program}");
                 readers += 1;
             }
-            _ => println!("not tried, because {program} is not installed"),
+            _ => tell(&format!(
+                "not tried, because {program} is not installed: reading parts"
+            )),
         }
     }
-    println!("{readers} other programs have read the parts");
+    tell(&format!("{readers} other programs have read the parts"));
 }

@@ -15,6 +15,7 @@ mod inspect;
 mod join;
 mod knobs;
 mod manual;
+mod memory;
 mod needs;
 mod pixel;
 mod program;

@@ -175,6 +175,12 @@ impl Picture {
     }
 }
 
+/// Says what is not tested here, and why. The test harness shows what is written in this way, but hides what a test
+/// prints.
+pub(crate) fn tell(words: &str) {
+    let _ = writeln!(std::io::stderr(), "{words}");
+}
+
 /// A scene of the repository.
 pub(crate) fn scene(name: &str) -> String {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");

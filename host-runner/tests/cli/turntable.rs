@@ -171,6 +171,11 @@ fn the_axis_goes_through_what_is_in_view() {
     assert!(folder.read("output.gif") == by_default);
     turn(&[&scene("default"), "--about", "-1,2.5"]);
     assert!(folder.read("output.gif") != by_default);
+    // It is the scene's, whatever size is drawn.
+    for size in [&["--size", "30x60"][..], &["--display", "ssd1331"]] {
+        let run = folder.succeed(&[&["render", "--turntable", "1"], size].concat());
+        assert!(run.stderr.contains("(--about 0,2.5)"), "{}", run.stderr);
+    }
     // Nothing but sky.
     folder.write(
         "empty.txt",
@@ -206,4 +211,41 @@ fn json_counts_the_pictures_of_a_file_together() {
     assert_eq!(files[2]["turntable"]["steps"]["start"], 2);
     assert_eq!(files[2]["file"], "turn-002.png");
     assert!(report(&["-o", "one.png"])[0].get("turntable").is_none());
+}
+
+#[test]
+fn a_camera_that_leaves_the_room_is_told() {
+    let folder = Folder::new();
+    let turn = |name: &str, about: &[&str]| {
+        let turntable = ["render", "--turntable", "8", "--size", "8x6", &scene(name)];
+        folder.succeed(&[&turntable[..], about].concat()).stderr
+    };
+    for (name, places, on_the_spot) in [
+        (
+            "mirror-room",
+            "after step 1 (line 15), after step 4 (lines 14, 15), after step 6 (line 14)",
+            "0,-1.3",
+        ),
+        (
+            "window-room",
+            "after step 2 (line 34), after step 5 (line 38)",
+            "0.2,-1.6",
+        ),
+        // Into the sphere and out of it.
+        (
+            "default",
+            "after step 4 (line 10), after step 5 (line 10)",
+            "0,0",
+        ),
+    ] {
+        let said = turn(name, &[]);
+        let words = format!(
+            "{name}.txt: the camera passes through objects: {places}. Turn about another axis, or on the spot: --about \
+             {on_the_spot}\n"
+        );
+        assert!(said.contains(&words), "{said}");
+        let said = turn(name, &["--about", on_the_spot]);
+        assert!(!said.contains("the camera"), "{said}");
+    }
+    assert!(!turn("reflective", &[]).contains("the camera"));
 }

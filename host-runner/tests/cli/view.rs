@@ -362,6 +362,30 @@ fn draws_again_whenever_the_scene_is_saved() {
     assert_eq!(modes(&*view.master), view.modes_before);
 }
 
+#[test]
+fn an_error_leaves_most_of_the_picture_on_a_small_terminal() {
+    let folder = Folder::new();
+    let good = SMALL_SCENE.replace("8 6", "20 12");
+    save(&folder, &good);
+    let expected = folder.draw(&["scene.txt"]);
+    let mut view = Terminal::new(
+        &folder,
+        &["view", "scene.txt", "--watch", "--size", "20x12"],
+        [44, 7],
+        false,
+    );
+    view.wait_until("done", |screen| screen.contents().contains(" ms  q quits"));
+    save(&folder, &good.replace("0.1\n", "zero\n"));
+    view.wait_until("the error and its place", |screen| {
+        screen
+            .contents()
+            .contains("scene.txt:5:1: error: expected the ambient")
+    });
+    assert!(picture(view.parser.screen(), 20, 10) == picture_top(&expected, 10));
+    view.press("q");
+    assert_eq!(view.finish(), 0);
+}
+
 /// The upper rows of a picture.
 fn picture_top(picture: &Picture, height: usize) -> Option<Picture> {
     Some(Picture {
@@ -375,7 +399,13 @@ fn picture_top(picture: &Picture, height: usize) -> Option<Picture> {
 fn every_way_out_of_watching_restores_the_terminal() {
     let folder = Folder::new();
     folder.write("scene.txt", SMALL_SCENE);
-    for way in ["q", "\x1b", "\x03", "kill"] {
+    for (way, code) in [
+        ("q", 0),
+        ("\x1b", 0),
+        ("\x04", 0),
+        ("\x03", 130),
+        ("kill", 143),
+    ] {
         let mut view = Terminal::new(&folder, &["view", "scene.txt", "-w"], [40, 12], false);
         view.wait_until("the picture", |screen| {
             screen.contents().contains("q quits")
@@ -387,7 +417,7 @@ fn every_way_out_of_watching_restores_the_terminal() {
         } else {
             view.press(way);
         }
-        assert_eq!(view.finish(), 0, "{way:?}");
+        assert_eq!(view.finish(), code, "{way:?}");
         assert_is_as_before(view.parser.screen());
         assert_eq!(modes(&*view.master), view.modes_before, "{way:?}");
     }

@@ -12,11 +12,12 @@ use clap::{Args, ValueEnum};
 
 use crate::console::{print, say};
 use crate::failure::Failure;
+use crate::options::whole;
 use crate::output::Place;
 use random::Random;
 
 /// The most objects: what the host's pools hold of a shape.
-const MOST: i64 = 131_072;
+const MOST: u64 = 131_072;
 
 /// The command line.
 #[derive(Args, Debug)]
@@ -35,9 +36,9 @@ pub(crate) struct GenerateArgs {
     /// What the scene is made of
     kind: Kind,
 
-    /// Number of objects, without the floor
+    /// How many spheres there are, or the most triangles; the floor comes on top
     #[arg(short = 'n', long, value_name = "N", default_value = "1000",
-          value_parser = clap::value_parser!(u32).range(1..=MOST))]
+          value_parser = whole::<u32>(1..=MOST), allow_negative_numbers = true)]
     count: u32,
 
     /// Number that the random numbers follow from
@@ -70,7 +71,7 @@ pub(crate) fn run(args: &GenerateArgs) -> Result<ExitCode, Failure> {
         Kind::Icosphere => {
             if args.count < icosphere::FEWEST {
                 return Err(Failure::Usage(format!(
-                    "an icosphere has at least {} triangles: --count {}",
+                    "an icosphere has at least {} triangles: give --count {} or more",
                     icosphere::FEWEST,
                     icosphere::FEWEST
                 )));

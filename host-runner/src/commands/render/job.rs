@@ -1,10 +1,10 @@
 //! Drawing the pictures of one scene.
 
-use std::io;
+use std::io::{self, Write};
 use std::ops::Range;
 
 use embedded_graphics::pixelcolor::Rgb888;
-use scanray::{DisplayColor, Picture, Quantizer, Resolution, Scene};
+use scanray::{DisplayColor, Picture, Quantizer, Resolution, Scene, Vec3};
 
 use super::RenderArgs;
 use crate::canvas::Canvas;
@@ -14,10 +14,11 @@ use crate::drawing::{Parts, Workers};
 use crate::failure::Failure;
 use crate::host_pixels::{Drawing, HostPixels};
 use crate::host_tracer::HostTracer;
-use crate::image::{self, Animation, ImageFormat};
+use crate::image::{self, Animation, ImageFormat, require_gif_memory};
+use crate::interrupt;
 use crate::options::{RangeOption, name_of, with_color};
-use crate::output::Place;
-use crate::part::{PartRecord, scene_identity};
+use crate::output::{Place, Unwritten};
+use crate::part::{self, PartRecord, scene_identity};
 use crate::picture_args::PictureSettings;
 use crate::places::{PictureFile, Steps};
 use crate::pools::{HostPools, HostScalar};
@@ -25,7 +26,8 @@ use crate::progress::Progress;
 use crate::render_report::{Pools, RenderReport, TurntableReport};
 use crate::scene_data;
 use crate::scene_file::SceneSource;
-use crate::turntable::{Axis, Turntable, axis_in_view};
+use crate::scene_lines::object_lines;
+use crate::turntable::{Axis, Crossing, Turntable, axis_in_view, crossings};
 
 /// The pictures of a scene, to be drawn.
 pub(super) struct Job<'a> {
@@ -55,7 +57,8 @@ impl Job<'_> {
     pub(super) fn run<T: HostScalar + Drawing>(&self) -> Result<(), Failure> {
         let args = self.args;
         let mut pools = T::pools();
-        self.scene.load(&mut pools)?;
+        let text = self.scene.read()?;
+        self.scene.load_text(&text, &mut pools)?;
         let scene = pools.as_scene();
         if args.verbose {
             // The listing is for people when standard output is taken by data.
@@ -74,7 +77,11 @@ impl Job<'_> {
         )
         .map_err(Failure::Usage)?;
         let axis = match self.turntable {
-            Some(_) => Some(self.axis(scene, resolution)?),
+            Some(Steps { of, .. }) => {
+                let axis = self.axis(scene)?;
+                self.warn_of_crossings(scene, &crossings(scene, *of, axis), &text);
+                Some(axis)
+            }
             None => None,
         };
         let is_part = args.rows.is_some() || self.turntable.is_some();
@@ -93,7 +100,8 @@ impl Job<'_> {
             rows,
         };
         let mut bytes = 0;
-        for file in self.files {
+        for (done, file) in self.files.iter().enumerate() {
+            interrupt::advise(self.advice(done));
             let mut report = self.report(file, axis, &studio);
             let mut work = args.json.then(Work::default);
             report.bytes = if file.format == ImageFormat::Gif {
@@ -103,11 +111,15 @@ impl Job<'_> {
                     .as_deref()
                     .map(|scene| self.record(file, axis, scene, &studio).words());
                 let step = file.steps.start;
-                studio.draw(self, step, &mut report, work.as_mut(), &mut |size, rows| {
-                    let comment = record.as_deref();
-                    file.place
-                        .write(|out| image::write(file.format, out, size, comment, rows))
-                })?
+                studio
+                    .draw(self, step, &mut report, work.as_mut(), &mut |size, rows| {
+                        let comment = record.as_deref();
+                        let write = |out: &mut dyn Write| {
+                            image::write(file.format, out, size, comment, rows)
+                        };
+                        Ok(file.place.write(write)?)
+                    })
+                    .map_err(|unwritten| unwritten.of(&file.place))?
             };
             bytes += report.bytes;
             if let Some(work) = work {
@@ -115,6 +127,7 @@ impl Job<'_> {
                 still_draw(print(|out| report.write_json(out)))?;
             }
         }
+        interrupt::advise(None);
         let Studio { rows, .. } = studio;
         self.say_saved(resolution, &rows, bytes);
         Ok(())
@@ -125,16 +138,36 @@ impl Job<'_> {
         files.any(|file| matches!(file.place, Place::Stdout))
     }
 
+    /// How to go on with a turntable that is interrupted when so many of its files are written.
+    fn advice(&self, done: usize) -> Option<String> {
+        let Steps { range, .. } = self.turntable?;
+        let name = self.scene.name();
+        let file = self.files.get(done)?;
+        if file.format == ImageFormat::Gif {
+            return (range.len() > 1).then(|| {
+                format!(
+                    "Interrupted: a GIF file is written whole or not at all. Numbered files can be gone on with: draw {name} \
+                     with -o turn.png, the rest with --steps, then scanray join turn-*.png -o turn.gif"
+                )
+            });
+        }
+        let Range { start, end } = range;
+        let next = file.steps.start;
+        let drawn = match done {
+            0 => "nothing is drawn yet".to_owned(),
+            _ => format!("steps {start}..{next} are drawn"),
+        };
+        Some(format!(
+            "Interrupted: {drawn} of {name}. To go on, add --steps {next}..{end}"
+        ))
+    }
+
     /// The axis that the scene turns about.
-    fn axis<T: HostScalar>(
-        &self,
-        scene: Scene<'_, T>,
-        resolution: Resolution,
-    ) -> Result<Axis, Failure> {
+    fn axis<T: HostScalar>(&self, scene: Scene<'_, T>) -> Result<Axis, Failure> {
         if let Some(axis) = self.args.about {
             return Ok(axis);
         }
-        let axis = axis_in_view(scene, resolution).ok_or_else(|| {
+        let axis = axis_in_view(scene).ok_or_else(|| {
             Failure::Usage(format!(
                 "--turntable: nothing of {} is in view to turn about; give --about X,Z",
                 self.scene.name()
@@ -149,6 +182,39 @@ impl Job<'_> {
             axis.z
         ));
         Ok(axis)
+    }
+
+    /// Says where the camera passes through something on its way, beyond which it may see nothing but walls.
+    fn warn_of_crossings<T: HostScalar>(
+        &self,
+        scene: Scene<'_, T>,
+        crossings: &[Crossing],
+        text: &[u8],
+    ) {
+        if crossings.is_empty() {
+            return;
+        }
+        let lines = object_lines(text);
+        let places = crossings.chunk_by(|a, b| a.step == b.step).map(|between| {
+            let lines: Vec<String> = between
+                .iter()
+                .filter_map(|crossing| lines.get(crossing.object as usize))
+                .map(u32::to_string)
+                .collect();
+            let noun = if lines.len() == 1 { "line" } else { "lines" };
+            format!(
+                "after step {} ({noun} {})",
+                between[0].step,
+                lines.join(", ")
+            )
+        });
+        let Vec3 { x, z, .. } = scene.camera.position;
+        say(format_args!(
+            "warning: {}: the camera passes through objects: {}. Turn about another axis, or on the spot: \
+             --about {x},{z}",
+            self.scene.name(),
+            places.collect::<Vec<_>>().join(", ")
+        ));
     }
 
     fn report<T: HostScalar>(
@@ -198,7 +264,7 @@ impl Job<'_> {
         scene_identity: &str,
         studio: &Studio<'_, T>,
     ) -> PartRecord {
-        let mut settings = vec![("scene".to_owned(), scene_identity.to_owned())];
+        let mut settings = vec![(part::SCENE.to_owned(), scene_identity.to_owned())];
         settings.extend(axis.map(|axis| ("about".to_owned(), format!("{},{}", axis.x, axis.z))));
         settings.extend(self.settings.record());
         PartRecord {
@@ -217,22 +283,23 @@ impl Job<'_> {
         report: &mut RenderReport,
         mut work: Option<&mut Work>,
     ) -> Result<u64, Failure> {
-        let in_memory = |error: io::Error| Failure::Files(format!("cannot make the GIF: {error}"));
         let Resolution { width, height } = studio.resolution;
         let delay = if file.steps.len() > 1 {
             self.args.delay
         } else {
             0
         };
-        let mut animation = Animation::new([width, height], delay).map_err(in_memory)?;
-        for step in file.steps.clone() {
-            studio.draw(self, step, report, work.as_deref_mut(), &mut |_, rows| {
-                let pixels: Vec<u8> = rows.flatten().collect();
-                animation.add(&pixels).map(|()| 0).map_err(in_memory)
-            })?;
-        }
-        let encoded = animation.finish().map_err(in_memory)?;
-        file.place.write(|out| out.write_all(&encoded))
+        require_gif_memory([width, height])?;
+        file.place.write_made(|out| {
+            let mut animation = Animation::new(out, [width, height], delay)?;
+            for step in file.steps.clone() {
+                studio.draw(self, step, report, work.as_deref_mut(), &mut |_, rows| {
+                    animation.add(rows)?;
+                    Ok(0)
+                })?;
+            }
+            Ok(animation.finish()?)
+        })
     }
 
     fn say_saved(&self, size: Resolution, rows: &Range<u16>, bytes: u64) {
@@ -276,7 +343,7 @@ impl Job<'_> {
 
 /// Takes the rows of a picture of this size, and returns how many bytes were written.
 type Consume<'a> =
-    dyn FnMut([u16; 2], &mut dyn Iterator<Item = Vec<u8>>) -> Result<u64, Failure> + 'a;
+    dyn FnMut([u16; 2], &mut dyn Iterator<Item = Vec<u8>>) -> Result<u64, Unwritten> + 'a;
 
 impl<T: HostScalar + Drawing> Studio<'_, T> {
     /// Draws a picture, adds what it took to the report and to `work`, and returns what `consume` does.
@@ -287,7 +354,7 @@ impl<T: HostScalar + Drawing> Studio<'_, T> {
         report: &mut RenderReport,
         work: Option<&mut Work>,
         consume: &mut Consume<'_>,
-    ) -> Result<u64, Failure> {
+    ) -> Result<u64, Unwritten> {
         // Step 0 is the scene as it was loaded.
         if let (Some(turntable), 1..) = (&self.turntable, step) {
             turntable
@@ -315,7 +382,7 @@ impl<T: HostScalar + Drawing> Studio<'_, T> {
         pixels: &HostPixels<'_, T>,
         report: &mut RenderReport,
         consume: &mut Consume<'_>,
-    ) -> Result<u64, Failure> {
+    ) -> Result<u64, Unwritten> {
         let picture = Picture::new(pixels);
         if job.settings.dither {
             self.draw_picture::<scanray::Dithered<C>>(job, picture.dithered(), report, consume)
@@ -331,9 +398,9 @@ impl<T: HostScalar + Drawing> Studio<'_, T> {
         picture: Picture<&HostPixels<'_, T>, Q>,
         report: &mut RenderReport,
         consume: &mut Consume<'_>,
-    ) -> Result<u64, Failure> {
+    ) -> Result<u64, Unwritten> {
         let size = [self.resolution.width, self.rows.len() as u16];
-        let mut parts = Parts::new(picture, self.rows.clone(), job.workers, &self.progress);
+        let mut parts = Parts::new(picture, self.rows.clone(), job.workers, &self.progress)?;
         let first = parts.next();
         let canvases = first.into_iter().chain(&mut parts);
         let bytes = consume(size, &mut canvases.flat_map(Canvas::into_rows_rgb888))?;

@@ -109,7 +109,8 @@ mod tests {
         let mut pixels = Pixels::new(Resolution {
             width: 3,
             height: 3,
-        });
+        })
+        .unwrap();
         pixels.rgb[0] = [255; 3];
         pixels.rgb[3] = [255; 3];
         pixels.rgb[1] = [255; 3];
@@ -122,7 +123,8 @@ mod tests {
         let mut pixels = Pixels::new(Resolution {
             width: 2,
             height: 3,
-        });
+        })
+        .unwrap();
         pixels.rgb = vec![[1, 2, 3], [1, 2, 3], [4, 5, 6], [7, 8, 9], [0; 3], [0; 3]];
         assert_eq!(
             lines(&pixels, Style::Blocks),

@@ -1,10 +1,12 @@
 //! `scanray view`: the picture in the terminal.
 
 mod cells;
+mod message;
 mod screen;
 mod terminal;
 mod watch;
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -21,13 +23,15 @@ use scanray::{
 
 use self::cells::filling;
 use self::screen::{Pixels, Screen};
-use self::terminal::{FullScreen, Output, is_interrupted};
+use self::terminal::{FullScreen, Output};
 use self::watch::Watch;
 use crate::console::print;
 use crate::displays;
 use crate::failure::Failure;
 use crate::host_pixels::Drawing;
 use crate::host_tracer::HostTracer;
+use crate::interrupt;
+use crate::memory::Shortage;
 use crate::options::{ScalarName, with_color};
 use crate::picture_args::{PictureArgs, PictureSettings};
 use crate::pools::{HostPools, HostScalar};
@@ -46,7 +50,7 @@ With --watch the picture is drawn again whenever the file is saved: open an edit
 A terminal with 24-bit colours is assumed (two pixels a cell); where NO_COLOR is set or the output is no \
 terminal, letters stand for bright and dark. A display that is larger than the terminal is averaged down.
 
-Exit codes: 0 fine, 2 usage, 3 scene, 4 files, 130 interrupted.")]
+Exit codes: 0 fine, also after q, 2 usage, 3 scene, 4 files or memory, 130 interrupted by Ctrl-C, 143 by kill.")]
 pub(crate) struct ViewArgs {
     /// Scene file, `-` for standard input; the default scene if there is none
     #[arg(value_name = "SCENE")]
@@ -90,6 +94,8 @@ pub(crate) fn run(args: &ViewArgs) -> Result<ExitCode, Failure> {
 enum Stop {
     /// The program is to end.
     Quit,
+    /// The program was interrupted, and ends with this code.
+    Interrupted(u8),
     /// The picture is to be drawn anew: another scene or another size.
     Anew,
 }
@@ -158,13 +164,13 @@ fn sizes(
     }
 }
 
-/// The lines that show a picture in this size.
-fn lines(pixels: &Pixels, shown: Resolution, output: &Output) -> Vec<String> {
+/// The picture in the size to show it in.
+fn fitted(pixels: &Pixels, shown: Resolution) -> Result<Cow<'_, Pixels>, Shortage> {
     let is_same = (pixels.width, pixels.height) == (shown.width.into(), shown.height.into());
     if is_same {
-        cells::lines(pixels, output.style)
+        Ok(Cow::Borrowed(pixels))
     } else {
-        cells::lines(&pixels.averaged(shown), output.style)
+        pixels.averaged(shown).map(Cow::Owned)
     }
 }
 
@@ -179,10 +185,10 @@ fn show<T: HostScalar + Drawing>(
     let output = Output::new();
     // The line below the picture is the next prompt's.
     let (size, shown) = sizes(settings, scene.resolution, output.columns, output.lines - 1);
-    let mut pixels = Pixels::new(size);
+    let mut pixels = Pixels::new(size)?;
     let mut lines_above = 0;
     let mut write = |pixels: &Pixels| {
-        let lines = lines(pixels, shown, &output);
+        let lines = cells::lines(&*fitted(pixels, shown)?, output.style);
         let up = match lines_above {
             0 => String::new(),
             above => format!("\x1b[{above}A"),
@@ -200,15 +206,15 @@ fn show<T: HostScalar + Drawing>(
         if is_live {
             // From now on the program does not end in the middle of a line, which would leave its colours
             // behind.
-            if is_interrupted() {
-                return Ok(Some(Stop::Quit));
+            if let Some(code) = interrupt::exit_code() {
+                return Ok(Some(Stop::Interrupted(code)));
             }
             write(pixels)?;
         }
         Ok(None)
     })?;
-    if stop.is_some() {
-        return Ok(ExitCode::from(130));
+    if let Some(Stop::Interrupted(code)) = stop {
+        return Ok(ExitCode::from(code));
     }
     write(&pixels)?;
     Ok(ExitCode::SUCCESS)
@@ -232,7 +238,7 @@ fn watch<T: HostScalar + Drawing>(
     }
     let file = Watch::new(path);
     let text = source.read()?;
-    is_interrupted();
+    interrupt::exit_code();
     let terminal = FullScreen::enter().map_err(|error| Failure::stdout(&error))?;
     let mut session = Session {
         source,
@@ -252,6 +258,7 @@ fn watch<T: HostScalar + Drawing>(
         };
         match stop {
             Stop::Quit => return Ok(ExitCode::SUCCESS),
+            Stop::Interrupted(code) => return Ok(ExitCode::from(code)),
             Stop::Anew => {}
         }
     }
@@ -266,8 +273,8 @@ struct Session<'a> {
     file: Watch,
     /// The text of the scene, or why it cannot be read.
     text: Result<Vec<u8>, Vec<String>>,
-    /// The last good picture, and the size to show it in.
-    picture: Option<(Pixels, Resolution)>,
+    /// The last good picture, in the size that is shown.
+    picture: Option<Pixels>,
     /// What stands below it.
     message: Vec<String>,
 }
@@ -281,7 +288,8 @@ impl Session<'_> {
         self.output = Output::new();
         let text = self.text.as_ref().map_err(Clone::clone);
         let parsed = text.and_then(|text| {
-            let parsed = self.source.parse(text, pools, &Renderer::plain());
+            let renderer = Renderer::plain().term_width(self.output.columns.into());
+            let parsed = self.source.parse(text, pools, &renderer);
             parsed.map_err(|failure| message_lines(&failure))
         });
         let warning = match parsed {
@@ -300,7 +308,7 @@ impl Session<'_> {
             self.output.lines.saturating_sub(1).max(1),
         );
         let start = Instant::now();
-        let mut pixels = Pixels::new(size);
+        let mut pixels = Pixels::new(size)?;
         let status = |state: &str| {
             let name = self.source.name();
             let (width, height) = (size.width, size.height);
@@ -314,14 +322,14 @@ impl Session<'_> {
         self.message = vec![status("drawing")];
         let settings = self.settings;
         let stop = draw(scene, settings, &mut pixels, &mut |pixels| {
-            self.picture = Some((pixels.clone(), shown));
+            self.picture = Some(fitted(pixels, shown)?.into_owned());
             self.show()?;
             self.stop(Duration::ZERO)
         })?;
         if stop.is_none() {
             let state = format!("{} ms", start.elapsed().as_millis());
             self.message = warning.into_iter().chain([status(&state)]).collect();
-            self.picture = Some((pixels, shown));
+            self.picture = Some(fitted(&pixels, shown)?.into_owned());
             self.show()?;
         }
         Ok(stop)
@@ -347,7 +355,11 @@ impl Session<'_> {
                     let is_control = key.modifiers.contains(KeyModifiers::CONTROL);
                     match key.code {
                         KeyCode::Char('q') | KeyCode::Esc => return Ok(Some(Stop::Quit)),
-                        KeyCode::Char('c' | 'd') if is_control => return Ok(Some(Stop::Quit)),
+                        KeyCode::Char('d') if is_control => return Ok(Some(Stop::Quit)),
+                        // It is no signal here, but means the same.
+                        KeyCode::Char('c') if is_control => {
+                            return Ok(Some(Stop::Interrupted(130)));
+                        }
                         _ => {}
                     }
                 }
@@ -355,8 +367,8 @@ impl Session<'_> {
                 _ => {}
             }
         }
-        if is_interrupted() {
-            return Ok(Some(Stop::Quit));
+        if let Some(code) = interrupt::exit_code() {
+            return Ok(Some(Stop::Interrupted(code)));
         }
         if !self.file.may_have_changed() {
             return Ok(None);
@@ -374,19 +386,20 @@ impl Session<'_> {
     fn show(&self) -> Result<(), Failure> {
         let [columns, rows] = [self.output.columns, self.output.lines].map(usize::from);
         let mut lines = match &self.picture {
-            Some((pixels, shown)) => lines(pixels, *shown, &self.output),
+            Some(pixels) => cells::lines(pixels, self.output.style),
             None => Vec::new(),
         };
-        let message = self.message.iter().take(rows);
-        lines.truncate(rows - message.len());
-        lines.extend(message.map(|line| line.chars().take(columns).collect()));
+        // The picture is what matters: most of it stays.
+        let message = message::condensed(&self.message, columns, (rows / 3).clamp(1, 5));
+        lines.truncate(rows - message.len().min(rows));
+        lines.extend(message);
         self.terminal
             .show(&lines, self.output.lines)
             .map_err(|error| Failure::stdout(&error))
     }
 }
 
-/// What went wrong, without anything that a terminal would obey.
+/// What went wrong, line by line, without anything that a terminal would obey.
 fn message_lines(failure: &Failure) -> Vec<String> {
     let words = failure.words();
     let clean = |line: &str| line.replace(char::is_control, "\u{fffd}");

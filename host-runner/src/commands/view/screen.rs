@@ -8,6 +8,8 @@ use embedded_graphics::pixelcolor::Rgb888;
 use embedded_graphics::prelude::*;
 use scanray::Resolution;
 
+use crate::memory::{Shortage, room};
+
 /// Pixels as a display shows them, black at first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Pixels {
@@ -25,18 +27,24 @@ pub(super) struct Screen<'p, C> {
 }
 
 impl Pixels {
-    pub(super) fn new(resolution: Resolution) -> Self {
+    /// # Errors
+    ///
+    /// A [`Shortage`] of memory.
+    pub(super) fn new(resolution: Resolution) -> Result<Self, Shortage> {
         let [width, height] = [resolution.width, resolution.height].map(usize::from);
-        Self {
-            width,
-            height,
-            rgb: vec![[0; 3]; width * height],
-        }
+        let what = format_args!("a picture of {width}x{height} pixels");
+        let mut rgb = room(width * height, what, "give a smaller --size")?;
+        rgb.resize(width * height, [0; 3]);
+        Ok(Self { width, height, rgb })
     }
 
     /// The same picture in a smaller size: each pixel is the mean of those that it covers.
-    pub(super) fn averaged(&self, resolution: Resolution) -> Self {
-        let mut smaller = Self::new(resolution);
+    ///
+    /// # Errors
+    ///
+    /// A [`Shortage`] of memory.
+    pub(super) fn averaged(&self, resolution: Resolution) -> Result<Self, Shortage> {
+        let mut smaller = Self::new(resolution)?;
         let covered = |index: usize, of: usize, length: usize| {
             let start = index * length / of;
             start..((index + 1) * length / of).max(start + 1)
@@ -55,7 +63,7 @@ impl Pixels {
                     sum.map(|sum| ((sum + count / 2) / count) as u8);
             }
         }
-        smaller
+        Ok(smaller)
     }
 
     /// A pixel; none outside.
@@ -109,7 +117,8 @@ mod tests {
         let mut pixels = Pixels::new(Resolution {
             width: 5,
             height: 2,
-        });
+        })
+        .unwrap();
         for (i, pixel) in pixels.rgb.iter_mut().enumerate() {
             *pixel = [10 * i as u8, 0, 255];
         }
@@ -117,13 +126,14 @@ mod tests {
             width: 2,
             height: 1,
         });
+        let smaller = smaller.unwrap();
         // Columns 0 and 1, then 2 to 4, of both rows.
         assert_eq!(smaller.rgb, [[30, 0, 255], [55, 0, 255]]);
         let same = pixels.averaged(Resolution {
             width: 5,
             height: 2,
         });
-        assert_eq!(same, pixels);
+        assert_eq!(same.as_ref(), Ok(&pixels));
         assert_eq!(pixels.get(4, 1), Some([90, 0, 255]));
         assert_eq!((pixels.get(5, 1), pixels.get(4, 2)), (None, None));
     }

@@ -1,8 +1,6 @@
 //! The terminal: as it was before, once this is over.
 
 use std::io::{self, IsTerminal, Write};
-use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use crossterm::cursor::{Hide, MoveTo, Show};
 use crossterm::terminal::{
@@ -102,16 +100,4 @@ impl Drop for FullScreen {
         let _ = execute!(io::stdout(), Show, LeaveAlternateScreen);
         let _ = disable_raw_mode();
     }
-}
-
-/// Whether the program was asked to end, by Ctrl-C or `kill`. From the first call on it does not end by
-/// itself.
-pub(super) fn is_interrupted() -> bool {
-    static INTERRUPTED: AtomicBool = AtomicBool::new(false);
-    static HANDLER: OnceLock<()> = OnceLock::new();
-    HANDLER.get_or_init(|| {
-        // Where there can be no handler, the program ends as programs do.
-        let _ = ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
-    });
-    INTERRUPTED.load(Ordering::Relaxed)
 }

@@ -7,12 +7,18 @@
 //!
 //! All is computed in `f64`, with software functions, so that every machine gets the same numbers.
 
+mod axis;
+mod path;
+
 use std::f64::consts::FRAC_PI_2;
 
 use scanray::{
     Background, Camera, Light, MaterialDescription, Object, PoolsMut, Resolution, Scalar, Scene,
-    SceneError, Tracer, Vec3,
+    SceneError, Vec3,
 };
+
+pub(crate) use axis::axis_in_view;
+pub(crate) use path::{Crossing, crossings};
 
 /// A vertical axis: all points with this x and z.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,7 +83,7 @@ impl<T: Scalar> Turntable<T> {
     ///
     /// [`SceneError::Shape`] where turning takes a number out of the range of `T`.
     pub(crate) fn turn(&self, pools: &mut PoolsMut<'_, T>, step: u16) -> Result<(), SceneError> {
-        let turn = Turn::of(self.axis, step, self.steps);
+        let turn = Turn::of(self.axis, step.into(), self.steps.into());
         pools.clear();
         pools.set_camera(self.camera);
         pools.set_resolution(self.resolution);
@@ -117,9 +123,8 @@ struct Turn {
 }
 
 impl Turn {
-    fn of(axis: Axis, step: u16, steps: u16) -> Self {
-        let quarters = 4 * u32::from(step);
-        let steps = u32::from(steps);
+    fn of(axis: Axis, step: u32, steps: u32) -> Self {
+        let quarters = 4 * step;
         // Whole quarters are exact, so that four of them are back at the beginning.
         let rest = f64::from(quarters % steps) / f64::from(steps) * FRAC_PI_2;
         let (sin, cos) = libm::sincos(rest);
@@ -155,52 +160,6 @@ impl Turn {
             T::from_f64(before - after - height.to_f64()),
         )
     }
-}
-
-/// Columns and rows of the rays that look for what is in view.
-const PROBES: [u16; 2] = [64, 48];
-
-/// The axis through the middle of what is in view: the median, over the picture, of the centres of the
-/// spheres and of the places on triangles that are seen, or of places on planes if there is nothing else.
-/// Rounded to four digits, so that it can be given again. `None` if only the background is seen.
-pub(crate) fn axis_in_view<T: Scalar>(scene: Scene<'_, T>, resolution: Resolution) -> Option<Axis> {
-    let tracer = Tracer::new(scene).with_tree().with_resolution(resolution);
-    let (mut bodies, mut floors) = (Vec::new(), Vec::new());
-    let probes = |length: u16, count: u16| {
-        let count = count.min(length);
-        (0..count).map(move |i| {
-            let place = (2 * u32::from(i) + 1) * u32::from(length) / (2 * u32::from(count));
-            place as u16
-        })
-    };
-    for y in probes(resolution.height, PROBES[1]) {
-        let scanline = tracer.scanline(y);
-        for x in probes(resolution.width, PROBES[0]) {
-            let ray = tracer.primary_ray(&scanline, x);
-            let Some(nearest) = tracer.nearest(&ray) else {
-                continue;
-            };
-            let place = ray.at(nearest.t);
-            match nearest.object {
-                Object::Sphere(sphere) => bodies.push(sphere.center()),
-                Object::Triangle(_) => bodies.push(place),
-                Object::Plane(_) => floors.push(place),
-            }
-        }
-    }
-    let places = if bodies.is_empty() { floors } else { bodies };
-    Some(Axis {
-        x: median(places.iter().map(|place| place.x.to_f64()))?,
-        z: median(places.iter().map(|place| place.z.to_f64()))?,
-    })
-}
-
-/// The median, rounded to four digits.
-fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    let median = values.get(values.len() / 2)?;
-    format!("{median:.3e}").parse().ok()
 }
 
 #[cfg(test)]

@@ -1,0 +1,105 @@
+//! Ctrl-C and `kill`: what is tidied up and told before the program ends.
+//!
+//! A signal that was ignored when the program began stays ignored, as `nohup` and scripts in the background expect.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// What a signal meets.
+#[derive(Debug)]
+struct State {
+    /// Whether there is a thread that waits for signals.
+    is_listening: bool,
+    /// Whether the program ends by itself, when it has asked for the signal.
+    ends_by_itself: bool,
+    /// The signal that came, if the program ends by itself.
+    signal: Option<u8>,
+    /// Files to be removed.
+    unfinished: Vec<PathBuf>,
+    /// What is said.
+    advice: Option<String>,
+}
+
+static STATE: Mutex<State> = Mutex::new(State {
+    is_listening: false,
+    ends_by_itself: false,
+    signal: None,
+    unfinished: Vec::new(),
+    advice: None,
+});
+
+fn state() -> MutexGuard<'static, State> {
+    let mut state = STATE.lock().unwrap_or_else(PoisonError::into_inner);
+    if !state.is_listening {
+        state.is_listening = true;
+        listen();
+    }
+    state
+}
+
+/// Has a file removed when the program is interrupted.
+pub(crate) fn remove_unfinished(path: &Path) {
+    state().unfinished.push(path.to_owned());
+}
+
+/// No longer has a file removed.
+pub(crate) fn keep_finished(path: &Path) {
+    state().unfinished.retain(|unfinished| unfinished != path);
+}
+
+/// What is said when the program is interrupted: how to go on.
+pub(crate) fn advise(words: Option<String>) {
+    state().advice = words;
+}
+
+/// The exit code of an interrupted program, 128 and the number of the signal, once it is interrupted. From the first
+/// call on it does not end by itself.
+pub(crate) fn exit_code() -> Option<u8> {
+    let mut state = state();
+    state.ends_by_itself = true;
+    state.signal.map(|signal| 128 + signal)
+}
+
+#[cfg(unix)]
+fn listen() {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::iterator::Signals;
+    let heeded = [SIGINT, SIGTERM, SIGHUP].into_iter();
+    // Where there can be no handler, the program ends as programs do.
+    let Ok(mut signals) = Signals::new(heeded.filter(|signal| !is_ignored(*signal))) else {
+        return;
+    };
+    std::thread::spawn(move || {
+        for signal in signals.forever() {
+            // Held until the end, so that no other file is begun.
+            let mut state = state();
+            if state.ends_by_itself {
+                state.signal = u8::try_from(signal).ok();
+                continue;
+            }
+            for path in &state.unfinished {
+                let _ = std::fs::remove_file(path);
+            }
+            if let Some(advice) = &state.advice {
+                // Below the bar of the progress.
+                crate::console::say(format_args!("\n{advice}"));
+            }
+            let _ = signal_hook::low_level::emulate_default_handler(signal);
+        }
+    });
+}
+
+/// Elsewhere the program ends as programs do.
+#[cfg(not(unix))]
+fn listen() {}
+
+/// Whether the program was started with the signal ignored; known on Linux alone.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status
+        .lines()
+        .find_map(|line| line.strip_prefix("SigIgn:"))
+        .and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
+}
