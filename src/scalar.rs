@@ -150,6 +150,21 @@ pub trait Scalar:
         self == Self::ZERO
     }
 
+    /// Both equal to 0 or −0.
+    #[inline(always)]
+    fn are_zero(self, other: Self) -> bool {
+        self == Self::ZERO && other == Self::ZERO
+    }
+
+    /// Neither 0 nor subnormal, neither infinite nor NaN.
+    fn is_normal(self) -> bool;
+
+    /// `−self` if `other` is negative, else `self`.
+    #[inline(always)]
+    fn with_sign_of(self, other: Self) -> Self {
+        if other.is_negative() { -self } else { self }
+    }
+
     /// Equal to 1.
     #[inline(always)]
     fn is_one(self) -> bool {
@@ -288,7 +303,22 @@ impl Scalar for f32 {
 
     #[inline(always)]
     fn is_finite(self) -> bool {
-        f32::is_finite(self)
+        if Self::EMULATED {
+            self.to_bits() << 1 < INFINITY << 1
+        } else {
+            f32::is_finite(self)
+        }
+    }
+
+    #[inline(always)]
+    fn is_normal(self) -> bool {
+        // Of the exponent's 8 bits neither all nor none.
+        (self.to_bits() >> 23) + 1 & 0xff > 1
+    }
+
+    #[inline(always)]
+    fn with_sign_of(self, other: Self) -> Self {
+        f32::from_bits(self.to_bits() ^ other.to_bits() & SIGN)
     }
 
     #[inline(always)]
@@ -342,6 +372,15 @@ impl Scalar for f32 {
             self.to_bits() << 1 == 0
         } else {
             self == 0.0
+        }
+    }
+
+    #[inline(always)]
+    fn are_zero(self, other: Self) -> bool {
+        if Self::EMULATED {
+            (self.to_bits() | other.to_bits()) << 1 == 0
+        } else {
+            self == 0.0 && other == 0.0
         }
     }
 
@@ -437,6 +476,11 @@ impl Scalar for f64 {
 
     fn powf(self, exponent: Self) -> Self {
         libm::pow(self, exponent)
+    }
+
+    #[inline(always)]
+    fn is_normal(self) -> bool {
+        f64::is_normal(self)
     }
 
     #[inline(always)]

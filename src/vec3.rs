@@ -15,6 +15,14 @@ pub struct Vec3<T = f32> {
     pub z: T,
 }
 
+/// One of the three axes.
+#[derive(Clone, Copy)]
+enum Axis {
+    X,
+    Y,
+    Z,
+}
+
 impl<T> Vec3<T> {
     /// The vector of three components.
     pub const fn new(x: T, y: T, z: T) -> Self {
@@ -33,6 +41,67 @@ impl<T: Scalar> Vec3<T> {
     #[inline(always)]
     pub fn dot(self, other: Self) -> T {
         self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    /// The axis along which a unit vector lies exactly, if arithmetic is emulated: products with 0 and 1 need not be
+    /// computed there.
+    #[inline(always)]
+    fn axis(self) -> Option<Axis> {
+        if !T::EMULATED {
+            None
+        } else if self.y.abs().is_one() && self.x.are_zero(self.z) {
+            Some(Axis::Y)
+        } else if self.x.abs().is_one() && self.y.are_zero(self.z) {
+            Some(Axis::X)
+        } else if self.z.abs().is_one() && self.x.are_zero(self.y) {
+            Some(Axis::Z)
+        } else {
+            None
+        }
+    }
+
+    /// The component along an axis, and the two others.
+    #[inline(always)]
+    fn along(self, axis: Axis) -> (T, [T; 2]) {
+        match axis {
+            Axis::X => (self.x, [self.y, self.z]),
+            Axis::Y => (self.y, [self.x, self.z]),
+            Axis::Z => (self.z, [self.x, self.y]),
+        }
+    }
+
+    /// `unit·self` for a vector of length 1, up to the sign of a zero.
+    #[inline(always)]
+    pub(crate) fn component_along(self, unit: Self) -> T {
+        if let Some(axis) = unit.axis() {
+            let (value, others) = self.along(axis);
+            // Infinity times 0 is NaN.
+            if others.into_iter().all(T::is_finite) {
+                let (one, _) = unit.along(axis);
+                return value.with_sign_of(one);
+            }
+        }
+        unit.dot(self)
+    }
+
+    /// `self + unit·distance` for a vector of length 1.
+    #[inline(always)]
+    pub(crate) fn moved_along(self, unit: Self, distance: T) -> Self {
+        if let Some(axis) = unit.axis() {
+            let (value, others) = self.along(axis);
+            // ±0 changes no number but −0.
+            if distance.is_finite() && others.into_iter().all(T::is_normal) {
+                let (one, _) = unit.along(axis);
+                let mut moved = self;
+                *match axis {
+                    Axis::X => &mut moved.x,
+                    Axis::Y => &mut moved.y,
+                    Axis::Z => &mut moved.z,
+                } = value + distance.with_sign_of(one);
+                return moved;
+            }
+        }
+        self + unit * distance
     }
 
     /// Vector product.

@@ -70,7 +70,8 @@ impl<T: Scalar> Plane<T> {
     /// [`Plane::intersect`] without a limit; the distance may be infinite.
     #[inline(always)]
     pub(crate) fn meet(&self, ray: &Ray<T>) -> Option<T> {
-        let t = (self.height - self.normal.dot(ray.origin)) / self.normal.dot(ray.direction);
+        let t = (self.height - ray.origin.component_along(self.normal))
+            / ray.direction.component_along(self.normal);
         // A ray that leaves the plane is rare among those tested, so that is asked last.
         (t.is_positive() && ray.leaves.object() != self.surface.number).then_some(t)
     }
@@ -87,8 +88,9 @@ impl<T: Scalar> Plane<T> {
     pub fn surface_point(&self, ray: &Ray<T>, t: T) -> SurfacePoint<T> {
         let n = self.normal;
         let approximate = ray.at(t);
-        let point = approximate - n * (n.dot(approximate) - self.height);
-        let components = (n.x * point.x).abs() + (n.y * point.y).abs() + (n.z * point.z).abs();
+        let above = approximate.component_along(n) - self.height;
+        let point = approximate.moved_along(n, -above);
+        let components = point.abs().component_along(n.abs());
         SurfacePoint {
             point,
             normal: n,

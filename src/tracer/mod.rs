@@ -584,14 +584,13 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             let triangle = self.triangle(closest.index)?;
             (triangle.surface_point(closest.place), triangle.surface())
         };
-        let slope = point.normal.dot(ray.direction);
+        let slope = ray.direction.component_along(point.normal);
         let entering = slope.is_zero_or_negative();
         let normal = if entering {
             point.normal
         } else {
             -point.normal
         };
-        let step = normal * point.offset;
         let hit = Hit {
             facing: Side::new(surface.number, entering),
             beyond: Side::new(surface.number, !entering),
@@ -600,8 +599,8 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             normal,
             cosine: slope.abs(),
             entering,
-            outside: point.point + step,
-            inside: point.point - step,
+            outside: point.point.moved_along(normal, point.offset),
+            inside: point.point.moved_along(normal, -point.offset),
         };
         observer.meeting(&Meeting {
             side: hit.facing,

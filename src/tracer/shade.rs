@@ -35,7 +35,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         for light in self.scene.lights {
             let to_light = light.position - hit.outside;
             // The sign of N·L, before its length is known: a light behind the surface costs no root.
-            let toward = hit.normal.dot(to_light);
+            let toward = to_light.component_along(hit.normal);
             let distance_squared = to_light.dot(to_light);
             // The distance is 0 only in a light that lies in the hit itself, and underflows only next
             // to it.
