@@ -39,6 +39,18 @@ impl<T: Scalar> Color<T> {
         self.r.is_zero() && self.g.is_zero() && self.b.is_zero()
     }
 
+    /// The same number in all channels.
+    #[inline(always)]
+    fn splat(channel: T) -> Self {
+        Self::new(channel, channel, channel)
+    }
+
+    /// All channels have the same bits: light without a hue is common.
+    #[inline(always)]
+    fn is_grey(self) -> bool {
+        self.r.is_same(self.g) && self.r.is_same(self.b)
+    }
+
     /// All channels are finite.
     pub fn is_finite(self) -> bool {
         self.r.is_finite() && self.g.is_finite() && self.b.is_finite()
@@ -55,7 +67,11 @@ impl<T: Scalar> Add for Color<T> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self::new(self.r + other.r, self.g + other.g, self.b + other.b)
+        Self::new(
+            self.r.plus(other.r),
+            self.g.plus(other.g),
+            self.b.plus(other.b),
+        )
     }
 }
 
@@ -64,7 +80,14 @@ impl<T: Scalar> Mul for Color<T> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Self::new(self.r * other.r, self.g * other.g, self.b * other.b)
+        if T::EMULATED && self.is_grey() && other.is_grey() {
+            return Self::splat(self.r.times(other.r));
+        }
+        Self::new(
+            self.r.times(other.r),
+            self.g.times(other.g),
+            self.b.times(other.b),
+        )
     }
 }
 
@@ -72,6 +95,13 @@ impl<T: Scalar> Mul<T> for Color<T> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: T) -> Self {
-        Self::new(self.r * factor, self.g * factor, self.b * factor)
+        if T::EMULATED && self.is_grey() {
+            return Self::splat(self.r.times(factor));
+        }
+        Self::new(
+            self.r.times(factor),
+            self.g.times(factor),
+            self.b.times(factor),
+        )
     }
 }

@@ -89,6 +89,8 @@ struct Readme;
 // The modules stand in the order of their layers: a file may use those above it, never those below.
 
 // Numbers, vectors, colours.
+mod soft_float;
+
 mod scalar;
 
 mod vec3;

@@ -6,6 +6,8 @@
 use core::fmt::{Debug, Display};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
+use crate::soft_float;
+
 mod sealed {
     pub trait Sealed {}
     impl Sealed for f32 {}
@@ -37,8 +39,7 @@ pub trait Scalar:
 {
     /// Its name in messages: `f32` or `f64`.
     const NAME: &'static str;
-    /// The core has no hardware for it, so that every operation is a call of a routine in integers. Told of `f32`
-    /// alone.
+    /// The core has no hardware for it, so that operations are routines in integers (`soft_float`). Told of `f32` alone.
     const EMULATED: bool;
     /// 0.
     const ZERO: Self;
@@ -165,6 +166,9 @@ pub trait Scalar:
         if other.is_negative() { -self } else { self }
     }
 
+    /// Has the same bits.
+    fn is_same(self, other: Self) -> bool;
+
     /// Equal to 1.
     #[inline(always)]
     fn is_one(self) -> bool {
@@ -183,6 +187,18 @@ pub trait Scalar:
         Self::HALF * self
     }
 
+    /// `self·other`: for those products of which there are many.
+    #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        self * other
+    }
+
+    /// `self + other`: for those sums of which there are many.
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        self + other
+    }
+
     /// The larger of two numbers; the other one when `self` is NaN.
     #[inline(always)]
     fn max(self, other: Self) -> Self {
@@ -199,12 +215,6 @@ pub trait Scalar:
         }
     }
 }
-
-/// The sign of an `f32`.
-const SIGN: u32 = 1 << 31;
-
-/// Infinity as a number: NaN and all negative numbers are above.
-const INFINITY: u32 = f32::INFINITY.to_bits();
 
 impl Scalar for f32 {
     const NAME: &'static str = "f32";
@@ -246,29 +256,19 @@ impl Scalar for f32 {
 
     #[inline(always)]
     fn to_u32(self) -> u32 {
-        if !Self::EMULATED {
-            return self as u32;
-        }
-        let bits = self.to_bits();
-        // Negative numbers have the largest exponents here.
-        match bits >> 23 {
-            0..127 => 0,
-            exponent @ 127..159 => (bits << 8 | 1 << 31) >> (158 - exponent),
-            _ if bits > INFINITY => 0,
-            _ => u32::MAX,
+        if Self::EMULATED {
+            soft_float::to_u32(self)
+        } else {
+            self as u32
         }
     }
 
     #[inline(always)]
     fn to_i32(self) -> i32 {
-        if !Self::EMULATED {
-            return self as i32;
-        }
-        let magnitude = self.abs().to_u32().min(1 << 31);
-        if self.is_sign_negative() {
-            (magnitude as i32).wrapping_neg()
+        if Self::EMULATED {
+            soft_float::to_i32(self)
         } else {
-            magnitude.min(i32::MAX as u32) as i32
+            self as i32
         }
     }
 
@@ -282,6 +282,7 @@ impl Scalar for f32 {
     #[inline(always)]
     fn clamp01(self) -> Self {
         const ONE: u32 = 1.0_f32.to_bits();
+        const INFINITY: u32 = f32::INFINITY.to_bits();
         let bits = self.to_bits();
         let above_zero = if bits > INFINITY { 0 } else { bits };
         f32::from_bits(if above_zero > ONE { ONE } else { above_zero })
@@ -304,27 +305,32 @@ impl Scalar for f32 {
     #[inline(always)]
     fn is_finite(self) -> bool {
         if Self::EMULATED {
-            self.to_bits() << 1 < INFINITY << 1
+            soft_float::is_finite(self)
         } else {
             f32::is_finite(self)
         }
     }
 
     #[inline(always)]
+    fn is_same(self, other: Self) -> bool {
+        self.to_bits() == other.to_bits()
+    }
+
+    #[inline(always)]
     fn is_normal(self) -> bool {
         // Of the exponent's 8 bits neither all nor none.
-        (self.to_bits() >> 23) + 1 & 0xff > 1
+        ((self.to_bits() >> 23) + 1) & 0xff > 1
     }
 
     #[inline(always)]
     fn with_sign_of(self, other: Self) -> Self {
-        f32::from_bits(self.to_bits() ^ other.to_bits() & SIGN)
+        f32::from_bits(self.to_bits() ^ other.to_bits() & (-0.0_f32).to_bits())
     }
 
     #[inline(always)]
     fn is_positive(self) -> bool {
         if Self::EMULATED {
-            self.to_bits().wrapping_sub(1) < INFINITY
+            soft_float::is_positive(self)
         } else {
             self > 0.0
         }
@@ -333,7 +339,7 @@ impl Scalar for f32 {
     #[inline(always)]
     fn is_zero_or_positive(self) -> bool {
         if Self::EMULATED {
-            self.to_bits() <= INFINITY || self.to_bits() == SIGN
+            soft_float::is_zero_or_positive(self)
         } else {
             self >= 0.0
         }
@@ -351,7 +357,7 @@ impl Scalar for f32 {
     #[inline(always)]
     fn is_before(self, other: Self) -> bool {
         if Self::EMULATED {
-            self.to_bits() < other.to_bits()
+            soft_float::is_before(self, other)
         } else {
             self < other
         }
@@ -360,7 +366,7 @@ impl Scalar for f32 {
     #[inline(always)]
     fn is_up_to(self, other: Self) -> bool {
         if Self::EMULATED {
-            self.to_bits() <= INFINITY && self.to_bits() as i32 <= other.to_bits() as i32
+            soft_float::is_up_to(self, other)
         } else {
             self <= other
         }
@@ -369,7 +375,7 @@ impl Scalar for f32 {
     #[inline(always)]
     fn is_zero(self) -> bool {
         if Self::EMULATED {
-            self.to_bits() << 1 == 0
+            soft_float::is_zero(self)
         } else {
             self == 0.0
         }
@@ -378,7 +384,7 @@ impl Scalar for f32 {
     #[inline(always)]
     fn are_zero(self, other: Self) -> bool {
         if Self::EMULATED {
-            (self.to_bits() | other.to_bits()) << 1 == 0
+            soft_float::are_zero(self, other)
         } else {
             self == 0.0 && other == 0.0
         }
@@ -387,17 +393,34 @@ impl Scalar for f32 {
     #[inline(always)]
     fn is_one(self) -> bool {
         if Self::EMULATED {
-            self.to_bits() == 1.0_f32.to_bits()
+            soft_float::is_one(self)
         } else {
             self == 1.0
         }
     }
 
     #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        if Self::EMULATED {
+            soft_float::multiply(self, other)
+        } else {
+            self * other
+        }
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        if Self::EMULATED {
+            soft_float::add(self, other)
+        } else {
+            self + other
+        }
+    }
+
+    #[inline(always)]
     fn double(self) -> Self {
-        let bits = self.to_bits();
-        if Self::EMULATED && (1..254).contains(&(bits >> 23 & 0xff)) {
-            f32::from_bits(bits + (1 << 23))
+        if Self::EMULATED {
+            soft_float::double(self)
         } else {
             2.0 * self
         }
@@ -405,9 +428,8 @@ impl Scalar for f32 {
 
     #[inline(always)]
     fn halve(self) -> Self {
-        let bits = self.to_bits();
-        if Self::EMULATED && (2..255).contains(&(bits >> 23 & 0xff)) {
-            f32::from_bits(bits - (1 << 23))
+        if Self::EMULATED {
+            soft_float::halve(self)
         } else {
             0.5 * self
         }
@@ -479,6 +501,11 @@ impl Scalar for f64 {
     }
 
     #[inline(always)]
+    fn is_same(self, other: Self) -> bool {
+        self.to_bits() == other.to_bits()
+    }
+
+    #[inline(always)]
     fn is_normal(self) -> bool {
         f64::is_normal(self)
     }
@@ -515,7 +542,11 @@ fn hardware_sqrt(value: f32) -> f32 {
 #[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
 #[inline(always)]
 fn hardware_sqrt(value: f32) -> f32 {
-    libm::sqrtf(value)
+    if soft_float::HAS_SHORT_PRODUCTS {
+        soft_float::square_root(value)
+    } else {
+        libm::sqrtf(value)
+    }
 }
 
 /// Binary logarithm of `x` in 0…1 (any positive number works), relative error below 4e-7 also next

@@ -40,7 +40,10 @@ impl<T: Scalar> Vec3<T> {
     /// Scalar product, summed from left to right.
     #[inline(always)]
     pub fn dot(self, other: Self) -> T {
-        self.x * other.x + self.y * other.y + self.z * other.z
+        self.x
+            .times(other.x)
+            .plus(self.y.times(other.y))
+            .plus(self.z.times(other.z))
     }
 
     /// The axis along which a unit vector lies exactly, if arithmetic is emulated: products with 0 and 1 need not be
@@ -157,7 +160,11 @@ impl<T: Scalar> Vec3<T> {
     /// length 1, without a root or a division.
     #[inline(always)]
     fn renormalize(self) -> Self {
-        self * (T::THREE_HALVES - self.dot(self).halve())
+        let square = self.dot(self);
+        if T::EMULATED && square.is_one() {
+            return self;
+        }
+        self * (T::THREE_HALVES - square.halve())
     }
 
     /// The mirror direction of the unit vector `self` at a surface with unit normal `normal`.
@@ -209,7 +216,11 @@ impl<T: Scalar> Add for Vec3<T> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self::new(self.x + other.x, self.y + other.y, self.z + other.z)
+        Self::new(
+            self.x.plus(other.x),
+            self.y.plus(other.y),
+            self.z.plus(other.z),
+        )
     }
 }
 
@@ -217,7 +228,11 @@ impl<T: Scalar> Sub for Vec3<T> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self::new(self.x - other.x, self.y - other.y, self.z - other.z)
+        Self::new(
+            self.x.plus(-other.x),
+            self.y.plus(-other.y),
+            self.z.plus(-other.z),
+        )
     }
 }
 
@@ -225,7 +240,11 @@ impl<T: Scalar> Mul<T> for Vec3<T> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: T) -> Self {
-        Self::new(self.x * factor, self.y * factor, self.z * factor)
+        Self::new(
+            self.x.times(factor),
+            self.y.times(factor),
+            self.z.times(factor),
+        )
     }
 }
 

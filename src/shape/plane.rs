@@ -70,8 +70,12 @@ impl<T: Scalar> Plane<T> {
     /// [`Plane::intersect`] without a limit; the distance may be infinite.
     #[inline(always)]
     pub(crate) fn meet(&self, ray: &Ray<T>) -> Option<T> {
-        let t = (self.height - ray.origin.component_along(self.normal))
-            / ray.direction.component_along(self.normal);
+        let below = self.height - ray.origin.component_along(self.normal);
+        let slope = ray.direction.component_along(self.normal);
+        if T::EMULATED && below.is_negative() != slope.is_negative() {
+            return None;
+        }
+        let t = below / slope;
         // A ray that leaves the plane is rare among those tested, so that is asked last.
         (t.is_positive() && ray.leaves.object() != self.surface.number).then_some(t)
     }

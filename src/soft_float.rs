@@ -1,0 +1,364 @@
+//! Operations of `f32` in integers, for cores that emulate it: the same bits as the operators', in fewer instructions than
+//! the routines of the compiler's library that these call.
+
+/// The core multiplies 32 bits to 32 bits, so that longer products are calls of a routine: ARMv6-M, which alone of Arm's
+/// architectures has no atomic exchange either.
+pub(crate) const HAS_SHORT_PRODUCTS: bool =
+    cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));
+
+/// Counting leading zeros is an instruction of the core.
+const COUNTS_ZEROS: bool = cfg!(target_arch = "arm") && !HAS_SHORT_PRODUCTS;
+
+/// The sign.
+const SIGN: u32 = 1 << 31;
+
+/// Infinity as a number: NaN and all negative numbers are above.
+const INFINITY: u32 = f32::INFINITY.to_bits();
+
+/// Bits behind the point.
+const FRACTION_BITS: u32 = 23;
+
+/// The exponent of 1 as it is stored.
+const BIAS: u32 = 127;
+
+/// The exponent as it is stored: 0 for 0 and subnormal numbers, 255 for infinity and NaN.
+#[inline(always)]
+fn exponent(bits: u32) -> u32 {
+    bits >> FRACTION_BITS & 0xff
+}
+
+/// `x > 0`.
+#[inline(always)]
+pub(crate) fn is_positive(x: f32) -> bool {
+    x.to_bits().wrapping_sub(1) < INFINITY
+}
+
+/// `x ≥ 0`.
+#[inline(always)]
+pub(crate) fn is_zero_or_positive(x: f32) -> bool {
+    x.to_bits() <= INFINITY || x.to_bits() == SIGN
+}
+
+/// `x < y`, where neither is below 0; `y` is not NaN.
+#[inline(always)]
+pub(crate) fn is_before(x: f32, y: f32) -> bool {
+    x.to_bits() < y.to_bits()
+}
+
+/// `x ≤ y`, where `x` is not below 0, and `y` neither −0 nor NaN.
+#[inline(always)]
+pub(crate) fn is_up_to(x: f32, y: f32) -> bool {
+    x.to_bits() <= INFINITY && x.to_bits() as i32 <= y.to_bits() as i32
+}
+
+/// `x = 0`.
+#[inline(always)]
+pub(crate) fn is_zero(x: f32) -> bool {
+    x.to_bits() << 1 == 0
+}
+
+/// `x = 0` and `y = 0`.
+// Of one number LLVM knows the comparison of floats again.
+#[inline(always)]
+pub(crate) fn are_zero(x: f32, y: f32) -> bool {
+    (x.to_bits() | y.to_bits()) << 1 == 0
+}
+
+/// `x = 1`.
+#[inline(always)]
+pub(crate) fn is_one(x: f32) -> bool {
+    x.to_bits() == 1.0_f32.to_bits()
+}
+
+/// Neither infinite nor NaN.
+#[inline(always)]
+pub(crate) fn is_finite(x: f32) -> bool {
+    x.to_bits() << 1 < INFINITY << 1
+}
+
+/// `2x`.
+#[inline(always)]
+pub(crate) fn double(x: f32) -> f32 {
+    if (1..254).contains(&exponent(x.to_bits())) {
+        f32::from_bits(x.to_bits() + (1 << FRACTION_BITS))
+    } else {
+        2.0 * x
+    }
+}
+
+/// `½x`.
+#[inline(always)]
+pub(crate) fn halve(x: f32) -> f32 {
+    if (2..255).contains(&exponent(x.to_bits())) {
+        f32::from_bits(x.to_bits() - (1 << FRACTION_BITS))
+    } else {
+        0.5 * x
+    }
+}
+
+/// `x as u32`.
+#[inline(always)]
+pub(crate) fn to_u32(x: f32) -> u32 {
+    let bits = x.to_bits();
+    match bits >> FRACTION_BITS {
+        0..BIAS => 0,
+        exponent @ BIAS..159 => (bits << 8 | 1 << 31) >> (158 - exponent),
+        // Negative numbers too: their sign makes the exponent larger than all others.
+        _ if bits > INFINITY => 0,
+        _ => u32::MAX,
+    }
+}
+
+/// `x as i32`.
+#[inline(always)]
+pub(crate) fn to_i32(x: f32) -> i32 {
+    let magnitude = to_u32(x.abs()).min(SIGN);
+    if x.is_sign_negative() {
+        (magnitude as i32).wrapping_neg()
+    } else {
+        magnitude.min(i32::MAX as u32) as i32
+    }
+}
+
+/// `x·y`.
+pub(crate) fn multiply(x: f32, y: f32) -> f32 {
+    let (x_bits, y_bits) = (x.to_bits(), y.to_bits());
+    let (x_exponent, y_exponent) = (exponent(x_bits), exponent(y_bits));
+    let exponent = (x_exponent + y_exponent).wrapping_sub(BIAS);
+    let is_ordinary = |exponent: u32| exponent.wrapping_sub(1) < 253;
+    if !(is_ordinary(x_exponent) && is_ordinary(y_exponent) && is_ordinary(exponent)) {
+        return x * y;
+    }
+    let significand = |bits: u32| bits & ((1 << FRACTION_BITS) - 1) | 1 << FRACTION_BITS;
+    let (x, y) = (significand(x_bits), significand(y_bits));
+    let [mut high, mut rest] = if HAS_SHORT_PRODUCTS {
+        short_product(x, y)
+    } else {
+        long_product(x, y)
+    };
+    // The leading bit of the significand adds 1 to the exponent.
+    let mut exponent = exponent;
+    if high >> FRACTION_BITS == 0 {
+        high = high << 1 | rest >> 31;
+        rest <<= 1;
+        exponent -= 1;
+    }
+    // To the nearest, of two to the even one; the lowest bit of `rest` is free.
+    let up = (rest | high & 1) > SIGN;
+    let magnitude = (exponent << FRACTION_BITS) + high + u32::from(up);
+    f32::from_bits((x_bits ^ y_bits) & SIGN | magnitude)
+}
+
+/// The product of two significands, which has 47 or 48 bits: the upper ones, and 24 below them at the upper end of a word.
+#[inline(always)]
+fn long_product(x: u32, y: u32) -> [u32; 2] {
+    let product = u64::from(x << 8) * u64::from(y);
+    [(product >> 32) as u32, product as u32]
+}
+
+/// [`long_product`] in parts of 16 bits.
+#[inline(always)]
+fn short_product(x: u32, y: u32) -> [u32; 2] {
+    let (x_high, x_low) = (x >> 16, x & 0xffff);
+    let (y_high, y_low) = (y >> 16, y & 0xffff);
+    let low = x_low * y_low;
+    let middle = x_high * y_low + x_low * y_high + (low >> 16);
+    [
+        ((x_high * y_high) << 8) + (middle >> 8),
+        middle << 24 | (low & 0xffff) << 8,
+    ]
+}
+
+/// `x + y`.
+pub(crate) fn add(x: f32, y: f32) -> f32 {
+    let (mut large, mut small) = (x.to_bits(), y.to_bits());
+    if large << 1 < small << 1 {
+        (large, small) = (small, large);
+    }
+    let (large_exponent, small_exponent) = (exponent(large), exponent(small));
+    if small_exponent == 0 || large_exponent >= 254 {
+        return x + y;
+    }
+    // The leading bit has one above it, for the carry, and 7 bits follow.
+    let significand = |bits: u32| (bits << 7 | 1 << 30) & !SIGN;
+    let (a, b) = (significand(large), significand(small));
+    // Of what is shifted out the lowest bit remembers that there was something.
+    let distance = (large_exponent - small_exponent).min(31);
+    let shifted = b >> distance;
+    let b = shifted | u32::from(shifted << distance != b);
+    let mut exponent = large_exponent;
+    let mut sum;
+    if (large ^ small) & SIGN == 0 {
+        sum = a + b;
+        // Lead with the highest bit.
+        if sum & SIGN == 0 {
+            sum <<= 1;
+            exponent -= 1;
+        }
+    } else {
+        sum = a - b;
+        if sum == 0 {
+            return 0.0;
+        }
+        let zeros = leading_zeros(sum);
+        sum <<= zeros;
+        if exponent <= zeros {
+            return x + y;
+        }
+        exponent -= zeros;
+    }
+    // To the nearest, of two to the even one. The leading bit adds 1 to the exponent.
+    let up = (sum & 0xff | sum >> 8 & 1) > 0x80;
+    let magnitude = (exponent << FRACTION_BITS) + (sum >> 8) + u32::from(up);
+    f32::from_bits(large & SIGN | magnitude)
+}
+
+/// The number of zeros above the highest one, of which there is one.
+#[inline(always)]
+fn leading_zeros(bits: u32) -> u32 {
+    if COUNTS_ZEROS {
+        bits.leading_zeros()
+    } else {
+        count_zeros(bits)
+    }
+}
+
+/// [`leading_zeros`], of which there are mostly few.
+#[inline(always)]
+fn count_zeros(mut bits: u32) -> u32 {
+    let mut zeros = 0;
+    while bits & SIGN == 0 {
+        bits <<= 1;
+        zeros += 1;
+    }
+    zeros
+}
+
+/// `√x` for cores that multiply 32 bits to 32 bits: digit by digit.
+pub(crate) fn square_root(x: f32) -> f32 {
+    let bits = x.to_bits();
+    if !(1..255).contains(&(bits >> FRACTION_BITS)) {
+        // 0, subnormal, negative, infinite, NaN.
+        return libm::sqrtf(x);
+    }
+    let exponent = exponent(bits) + BIAS;
+    let significand = bits & ((1 << FRACTION_BITS) - 1) | 1 << FRACTION_BITS;
+    // The sum of exponent and bias is odd where the power of 2 is odd, half of which goes to the significand.
+    let mut rest = significand << (1 + (exponent & 1));
+    let mut twice_root = 0;
+    let mut digit = 1 << 24;
+    // 25 digits: one more than is kept.
+    while digit != 0 {
+        let candidate = twice_root + digit;
+        if candidate <= rest {
+            twice_root = candidate + digit;
+            rest -= candidate;
+        }
+        rest <<= 1;
+        digit >>= 1;
+    }
+    let root = twice_root >> 1;
+    // No root lies in the middle between two numbers. The leading bit adds 1 to the exponent.
+    f32::from_bits((((exponent >> 1) - 1) << FRACTION_BITS) + (root >> 1) + (root & 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec::Vec;
+
+    /// Numbers of all kinds: around every power of 2, and a spread of all bits.
+    fn numbers() -> Vec<f32> {
+        let mut numbers = Vec::new();
+        for exponent in 0..=255_u32 {
+            for fraction in [
+                0, 1, 2, 0x3f_ffff, 0x40_0000, 0x40_0001, 0x7f_fffe, 0x7f_ffff,
+            ] {
+                let bits = exponent << FRACTION_BITS | fraction;
+                numbers.extend([bits, bits | SIGN].map(f32::from_bits));
+            }
+        }
+        numbers.extend(spread(4096));
+        numbers
+    }
+
+    /// Numbers whose bits are a sequence of low discrepancy.
+    fn spread(count: u32) -> impl Iterator<Item = f32> {
+        (0..count).map(|i| f32::from_bits(i.wrapping_mul(0x9e37_79b9)))
+    }
+
+    fn same(a: f32, b: f32) -> bool {
+        a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
+    }
+
+    #[test]
+    fn questions_of_one_number_have_the_operators_answers() {
+        for x in numbers() {
+            assert_eq!(is_positive(x), x > 0.0, "{x:?}");
+            assert_eq!(is_zero_or_positive(x), x >= 0.0, "{x:?}");
+            assert_eq!(is_zero(x), x == 0.0, "{x:?}");
+            assert_eq!(is_one(x), x == 1.0, "{x:?}");
+            assert_eq!(is_finite(x), x.is_finite(), "{x:?}");
+            assert_eq!(to_u32(x), x as u32, "{x:?}");
+            assert_eq!(to_i32(x), x as i32, "{x:?}");
+            assert!(same(double(x), 2.0 * x), "{x:?}");
+            assert!(same(halve(x), 0.5 * x), "{x:?}");
+        }
+    }
+
+    #[test]
+    fn comparisons_products_and_sums_are_the_operators() {
+        let numbers = numbers();
+        for &x in &numbers {
+            for &y in &numbers {
+                assert!(same(multiply(x, y), x * y), "{x:?} · {y:?}");
+                assert!(same(add(x, y), x + y), "{x:?} + {y:?}");
+                assert_eq!(are_zero(x, y), x == 0.0 && y == 0.0, "{x:?}, {y:?}");
+                let x_fits = x.is_nan() || x.to_bits() <= INFINITY;
+                if x_fits && y.to_bits() <= INFINITY {
+                    assert_eq!(is_before(x, y), x < y, "{x:?} < {y:?}");
+                }
+                if x_fits && !y.is_nan() && y.to_bits() != SIGN {
+                    assert_eq!(is_up_to(x, y), x <= y, "{x:?} ≤ {y:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn products_and_sums_are_rounded_like_the_operators() {
+        // Exponents near 1, so that all of them are finite.
+        let near_one = |x: f32| f32::from_bits(x.to_bits() & !(0x3f << 24) | 0x3f << 24);
+        let factors: Vec<f32> = spread(3000).map(near_one).collect();
+        for &x in &factors {
+            for &y in &factors {
+                assert!(same(multiply(x, y), x * y), "{x:?} · {y:?}");
+                assert!(same(add(x, y), x + y), "{x:?} + {y:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_cores_do_in_parts_is_the_same() {
+        let significand = |x: f32| x.to_bits() >> 8 | 1 << FRACTION_BITS;
+        let significands: Vec<u32> = numbers().into_iter().map(significand).collect();
+        for &x in &significands {
+            assert_eq!(count_zeros(x >> 3), (x >> 3).leading_zeros());
+            for &y in &significands {
+                assert_eq!(short_product(x, y), long_product(x, y), "{x:#x} · {y:#x}");
+            }
+        }
+    }
+
+    #[test]
+    fn roots_are_rounded_correctly() {
+        for x in numbers() {
+            assert!(same(square_root(x), x.sqrt()), "√{x:?}");
+        }
+        // All significands with either parity of the exponent.
+        for bits in (127 << FRACTION_BITS)..(129 << FRACTION_BITS) {
+            let x = f32::from_bits(bits);
+            assert_eq!(square_root(x), x.sqrt(), "√{x:?}");
+        }
+    }
+}
