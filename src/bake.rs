@@ -202,7 +202,7 @@ impl<T: Scalar> fmt::Display for Baked<'_, Material<T>> {
             f,
             "::scanray::Material::from_parts(::scanray::MaterialDescription {{ \
              diffuse: {}, specular: {}, ambient: {}, reflection: {}, shininess: {}, \
-             refraction: {}, index_of_refraction: {} }}, {}, {}, {})",
+             refraction: {}, index_of_refraction: {} }}, {}, {}, {}, {})",
             Baked(&d.diffuse),
             Baked(&d.specular),
             Baked(&d.ambient),
@@ -212,7 +212,8 @@ impl<T: Scalar> fmt::Display for Baked<'_, Material<T>> {
             Number(d.index_of_refraction),
             Number(material.inverse_index()),
             Number(material.bend()),
-            material.whole_shininess()
+            material.whole_shininess(),
+            material.faint_alignment()
         )
     }
 }

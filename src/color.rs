@@ -30,6 +30,10 @@ impl<T: Scalar> Color<T> {
     /// Every channel limited to 0…1; NaN becomes 0.
     #[inline(always)]
     pub fn clamp(self) -> Self {
+        // Nearly all are.
+        if self.r.is_clamped() & self.g.is_clamped() & self.b.is_clamped() {
+            return self;
+        }
         Self::new(self.r.clamp01(), self.g.clamp01(), self.b.clamp01())
     }
 

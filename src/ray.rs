@@ -1,7 +1,5 @@
 //! Rays, and where a ray that leaves a surface starts.
 
-use core::num::NonZeroU32;
-
 use crate::scalar::Scalar;
 use crate::vec3::Vec3;
 
@@ -10,42 +8,42 @@ use crate::vec3::Vec3;
 pub type ObjectNumber = u32;
 
 /// A side of an object, or no object at all: what a ray leaves.
-// The index with the highest bit set, so that an `Option` of a ray is no larger than a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Side(NonZeroU32);
+pub struct Side(u32);
 
 impl Side {
     /// Not on any object.
-    pub const NOWHERE: Self = Self(NonZeroU32::MAX);
+    pub const NOWHERE: Self = Self(u32::MAX);
 
-    const MARK: u32 = 1 << 31;
-
-    /// A side of the object of a number below 2³⁰ − 1: the front is where the geometric normal points
+    /// A side of the object of a number below 2³¹ − 1: the front is where the geometric normal points
     /// to, the outside of a sphere.
     #[inline(always)]
     pub const fn new(object: ObjectNumber, front: bool) -> Self {
-        match NonZeroU32::new(object << 1 | !front as u32 | Self::MARK) {
-            Some(marked) => Self(marked),
-            None => Self::NOWHERE,
-        }
+        Self(object << 1 | !front as u32)
+    }
+
+    /// The other side of the object.
+    #[inline(always)]
+    pub const fn opposite(self) -> Self {
+        Self(self.0 ^ 1)
     }
 
     /// Its index among the sides of all objects: the front of each before its back.
     #[inline(always)]
     pub const fn index(self) -> usize {
-        (self.0.get() & !Self::MARK) as usize
+        self.0 as usize
     }
 
     /// The object; a number that no object has for [`Side::NOWHERE`].
     #[inline(always)]
     pub const fn object(self) -> ObjectNumber {
-        (self.0.get() & !Self::MARK) >> 1
+        self.0 >> 1
     }
 
     /// Whether it is the front.
     #[inline(always)]
     pub const fn is_front(self) -> bool {
-        self.0.get() & 1 == 0
+        self.0 & 1 == 0
     }
 }
 

@@ -82,6 +82,10 @@ pub trait Scalar:
     /// The whole part towards zero, saturating; 0 for NaN.
     fn to_i32(self) -> i32;
 
+    /// Sign, exponent and seven digits of the number as an `f32`, as an integer: numbers of which neither is
+    /// negative are in its order.
+    fn upper_half(self) -> i16;
+
     /// Absolute value.
     fn abs(self) -> Self;
 
@@ -205,6 +209,9 @@ pub trait Scalar:
         if self > other { self } else { other }
     }
 
+    /// [`Scalar::clamp01`] changes nothing.
+    fn is_clamped(self) -> bool;
+
     /// The number limited to 0…1; 0 for NaN.
     #[inline(always)]
     fn clamp01(self) -> Self {
@@ -273,6 +280,11 @@ impl Scalar for f32 {
     }
 
     #[inline(always)]
+    fn upper_half(self) -> i16 {
+        (self.to_bits() >> 16) as i16
+    }
+
+    #[inline(always)]
     fn abs(self) -> Self {
         f32::abs(self)
     }
@@ -286,6 +298,11 @@ impl Scalar for f32 {
         let bits = self.to_bits();
         let above_zero = if bits > INFINITY { 0 } else { bits };
         f32::from_bits(if above_zero > ONE { ONE } else { above_zero })
+    }
+
+    #[inline(always)]
+    fn is_clamped(self) -> bool {
+        self.to_bits() <= 1.0_f32.to_bits()
     }
 
     #[inline(always)]
@@ -482,8 +499,18 @@ impl Scalar for f64 {
     }
 
     #[inline(always)]
+    fn upper_half(self) -> i16 {
+        (self as f32).upper_half()
+    }
+
+    #[inline(always)]
     fn abs(self) -> Self {
         f64::abs(self)
+    }
+
+    #[inline(always)]
+    fn is_clamped(self) -> bool {
+        self.to_bits() <= 1.0_f64.to_bits()
     }
 
     #[inline(always)]
@@ -639,5 +666,23 @@ mod tests {
         assert_eq!(f32::NAN.clamp01(), 0.0);
         assert_eq!(f32::INFINITY.clamp01(), 1.0);
         assert_eq!((-0.0_f64).clamp01(), 0.0);
+    }
+
+    #[test]
+    fn what_is_clamped_stays_as_it_is() {
+        for number in [0.0_f32, 1e-45, 0.5, 1.0] {
+            assert!(number.is_clamped() && f64::from(number).is_clamped());
+            assert_eq!(number.clamp01().to_bits(), number.to_bits());
+        }
+        for number in [
+            -0.0_f32,
+            -1.0,
+            1.0 + f32::EPSILON,
+            f32::INFINITY,
+            f32::NAN,
+            -f32::NAN,
+        ] {
+            assert!(!number.is_clamped() && !f64::from(number).is_clamped());
+        }
     }
 }

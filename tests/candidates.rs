@@ -7,8 +7,8 @@ use common::random::Random;
 use common::scenes::{Model, Part, RoomyPools, Shape, load, names};
 use scanray::shape::ShapeError;
 use scanray::{
-    Background, Camera, Color, FromDecimal, Light, MaterialDescription, ObjectSet, PoolsMut,
-    Resolution, Scalar, Scene, SceneError, ScenePools, Tracer, Tree, Vec3,
+    Background, Camera, Color, FromDecimal, Light, Material, MaterialDescription, ObjectSet,
+    PoolsMut, Resolution, Scalar, Scene, SceneError, ScenePools, Tracer, Tree, Vec3,
 };
 
 /// Draws a scene with its candidates and by brute force and compares all bits. How many tests by brute force
@@ -18,7 +18,13 @@ fn compare<T: Scalar>(
     resolution: Resolution,
     what: impl Fn() -> String,
 ) -> u64 {
+    let materials: Vec<_> = scene
+        .materials
+        .iter()
+        .map(|material| Material::new(*material.description()))
+        .collect();
     let brute_force = Scene {
+        materials: &materials,
         sides: &[],
         zones: &[],
         tree: Tree::NONE,
@@ -61,6 +67,19 @@ fn excluded_pairs<T: Scalar>(scene: Scene<'_, T>) -> usize {
     eighths / 8
 }
 
+/// The same of the zones of planes: of the pairs of a strip's direction along its axis, or its way to the lights, and an
+/// object.
+fn excluded_by_zones<T: Scalar>(scene: Scene<'_, T>) -> usize {
+    let objects = scene.object_count();
+    scene
+        .zones
+        .iter()
+        .flat_map(|zones| zones.strips.as_flattened())
+        .flat_map(|strip| [strip.ahead[0], strip.ahead[1], strip.occluders])
+        .map(|set| objects - set.members(objects).count())
+        .sum()
+}
+
 fn bits<T: Scalar>(color: Color<T>) -> [u64; 3] {
     [color.r, color.g, color.b].map(|channel| channel.to_f64().to_bits())
 }
@@ -83,6 +102,17 @@ fn scenes_of_the_repository<T: Scalar + FromDecimal>() {
             4 * objects * objects
         );
         assert!(excluded > 2 * objects, "{name}: {excluded}");
+        let scene = pools.as_scene();
+        if scene.object_count() <= ObjectSet::TOLD_APART {
+            // Of 48 directions and ways of each plane, one of four excludes one object at least.
+            let by_zones = excluded_by_zones(scene);
+            println!("{name}: {by_zones} pairs excluded by zones");
+            assert!(by_zones >= 12 * scene.planes.len(), "{name}: {by_zones}");
+        }
+        let with_faint = |material: &Material<T>| material.faint_alignment() > 0;
+        let faint = scene.materials.iter().copied().filter(with_faint).count();
+        println!("{name}: {faint} materials with faint highlights");
+        assert!(faint > 0, "{name}: no highlight is faint");
     }
 }
 

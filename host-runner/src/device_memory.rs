@@ -185,7 +185,8 @@ impl DeviceMemory {
             tracer: tracer.size,
             frame: size_of::<scanray::Frame>(),
             stack_frame: stack_frame.size,
-            stack: stack_frame.pool(max_depth, word).size,
+            // The refracted rays stand in a list of their own, with a length.
+            stack: stack_frame.pool(max_depth, word).size + word,
             cutoff_stack: Layout::of::<T>().pool(max_depth, word).size,
         }
     }

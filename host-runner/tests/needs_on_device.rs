@@ -48,7 +48,7 @@ fn source_for(index: usize, arguments: &[&str]) -> String {
         ),
         (
             format!(
-                "size_of::<heapless::Vec<[{scalar}; Tracer::<'static, {scalar}>::FRAME_BYTES / size_of::<{scalar}>()], {depth}>>()"
+                "size_of::<heapless::Vec<[{scalar}; Tracer::<'static, {scalar}>::FRAME_BYTES / size_of::<{scalar}>()], {depth}>>() + size_of::<usize>()"
             ),
             &json["stack"],
         ),

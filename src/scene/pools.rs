@@ -293,6 +293,13 @@ impl<T: Scalar> PoolsMut<'_, T> {
         self.entries.clear();
     }
 
+    /// Removes what is only true of the ambient light and the lights so far.
+    fn forget_faint_highlights(&mut self) {
+        for material in self.materials.iter_mut() {
+            material.set_faint_alignment(T::ZERO);
+        }
+    }
+
     /// Sets where the scene is seen from.
     pub fn set_camera(&mut self, camera: Camera<T>) {
         self.settings.camera = camera;
@@ -306,6 +313,7 @@ impl<T: Scalar> PoolsMut<'_, T> {
     /// Sets the intensity of the ambient light.
     pub fn set_ambient(&mut self, ambient: T) {
         self.settings.ambient = ambient;
+        self.forget_faint_highlights();
     }
 
     /// Sets what is behind everything.
@@ -340,6 +348,7 @@ impl<T: Scalar> PoolsMut<'_, T> {
     /// [`SceneError::PoolFull`].
     pub fn add_light(&mut self, light: Light<T>) -> Result<(), SceneError> {
         self.forget_visibility();
+        self.forget_faint_highlights();
         push(self.lights, light, Pool::Lights)
     }
 
@@ -431,6 +440,23 @@ impl<T: Scalar> PoolsMut<'_, T> {
         for object in scene.objects() {
             // There is room for all.
             let _ = room.sides.push(sides(&scene, object));
+        }
+    }
+
+    /// Fills in the alignments of all materials below which no highlight is seen.
+    pub(crate) fn fill_faint_alignments(
+        &mut self,
+        faint_alignment: fn(&Scene<'_, T>, &Material<T>) -> T,
+    ) {
+        for index in 0..self.materials.len() {
+            let (scene, _) = self.as_scene_and_visibility();
+            let alignment = scene
+                .materials
+                .get(index)
+                .map(|material| faint_alignment(&scene, material));
+            if let (Some(alignment), Some(material)) = (alignment, self.materials.get_mut(index)) {
+                material.set_faint_alignment(alignment);
+            }
         }
     }
 

@@ -1,6 +1,8 @@
 //! Which objects a ray that leaves a surface can meet: the data; how it is found is told in
 //! `visibility`.
 
+use core::ops::Range;
+
 use crate::scalar::Scalar;
 use crate::vec3::Vec3;
 
@@ -69,21 +71,23 @@ impl ObjectSet {
     /// The indices of its members in ascending order, in a scene of `count` objects. Of a set that was not
     /// made for the scene some may be `count` or larger.
     pub fn members(self, count: usize) -> impl Iterator<Item = usize> {
-        let mut members = self.members_among(true);
-        core::iter::from_fn(move || {
-            let index = members.index();
-            members.advance();
-            (index < count).then_some(index)
-        })
+        let told_apart =
+            (0..count.min(Self::TOLD_APART)).filter(move |index| self.contains(*index));
+        let beyond = (Self::TOLD_APART..count).filter(move |index| self.contains(*index));
+        told_apart.chain(beyond)
     }
 
     /// A walk through its members; `many` is false only where all objects are told apart.
     #[inline(always)]
     pub(crate) fn members_among(self, many: bool) -> Members {
         Members {
-            left: self.0,
-            beyond: 0,
+            left: self.0 & !Self::bit(Self::TOLD_APART),
             many,
+            beyond: if many && self.contains(Self::TOLD_APART) {
+                Self::TOLD_APART
+            } else {
+                usize::MAX
+            },
         }
     }
 }
@@ -91,58 +95,51 @@ impl ObjectSet {
 /// A walk through the members of a set.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Members {
+    /// Those told apart that are left.
     left: u32,
-    /// Members beyond those told apart that are passed.
-    beyond: usize,
     many: bool,
+    /// The next of those beyond; the largest number if there are none.
+    beyond: usize,
 }
 
 impl Members {
-    /// The index of the member it has come to, beyond all objects at the end.
-    #[inline(always)]
-    pub(crate) fn index(&self) -> usize {
-        let place = self.left.leading_zeros() as usize;
-        if self.many && self.left == 1 {
-            ObjectSet::TOLD_APART + self.beyond
-        } else if self.many && self.left == 0 {
-            usize::MAX
-        } else {
-            place
-        }
-    }
-
-    /// Goes on to the next.
-    #[inline(always)]
-    pub(crate) fn advance(&mut self) {
-        if self.many && self.left == 1 {
-            self.beyond += 1;
-        } else {
-            self.left &= !(FIRST.unbounded_shr(self.left.leading_zeros()));
-        }
-    }
-
     /// Visits the members that are objects of one shape, which `object` finds by their index, as long as
-    /// `visit` gives false; tells whether it gave true. One call for each shape, in their order.
-    ///
-    /// Nothing of `visit` happens before there is a member: with a single object of a shape all of its
-    /// tests but the ray is constant, and a compiler moves what it can out of a loop that it enters anyway.
+    /// `visit` gives false; tells whether it gave true. One call for each shape, in their order, whose objects
+    /// have the indices from `start` to `end`.
     #[inline(always)]
     pub(crate) fn walk<O>(
         &mut self,
+        Range { start, end }: Range<usize>,
         object: impl Fn(usize) -> Option<O>,
         mut visit: impl FnMut(usize, O) -> bool,
     ) -> bool {
-        let Some(mut member) = object(self.index()) else {
-            return false;
-        };
         loop {
-            if visit(self.index(), member) {
+            let mut index = self.left.leading_zeros() as usize;
+            // Beyond those told apart 32 is the index of an object.
+            let is_at_end = self.many && self.left == 0;
+            let member = match object(index) {
+                Some(member) if !is_at_end => member,
+                _ => {
+                    // If the shape has objects beyond those told apart, nothing else is left.
+                    if self.beyond >= end {
+                        return false;
+                    }
+                    index = self.beyond.max(start);
+                    self.beyond = index + 1;
+                    match object(index) {
+                        Some(member) => member,
+                        None => return false,
+                    }
+                }
+            };
+            if visit(index, member) {
                 return true;
             }
-            self.advance();
-            match object(self.index()) {
-                Some(next) => member = next,
-                None => return false,
+            self.left &= !FIRST.unbounded_shr(self.left.leading_zeros());
+            // With a single object there is no loop, out of which a compiler would move all of its tests but
+            // the ray, and so before the question whether it is a member.
+            if end - start == 1 {
+                return false;
             }
         }
     }

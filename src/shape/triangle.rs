@@ -161,7 +161,9 @@ impl<T: Scalar> Triangle<T> {
         if !self.may_meet(ray) || ray.leaves.object() == self.surface.number {
             return None;
         }
-        self.intersect_exactly(ray, t_max)
+        let (o, d) = (ray.origin, ray.direction);
+        self.intersect_exactly(o.x, o.y, o.z, d.x, d.y, d.z)
+            .filter(|(t, _)| t.is_up_to(t_max))
     }
 
     /// Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013: the vertices
@@ -169,15 +171,27 @@ impl<T: Scalar> Triangle<T> {
     /// triangles that share an edge, so that no ray passes between them. Where an edge function rounds
     /// to 0 its sign is computed again, exactly, with two-products (the paper uses double precision,
     /// which a microcontroller would have to emulate).
+    // Numbers are passed in registers; a vector is passed by a reference, which would keep the tracer's rays in
+    // memory.
     #[inline]
-    fn intersect_exactly(&self, ray: &Ray<T>, t_max: T) -> Option<(T, Barycentric<T>)> {
+    fn intersect_exactly(
+        &self,
+        origin_x: T,
+        origin_y: T,
+        origin_z: T,
+        direction_x: T,
+        direction_y: T,
+        direction_z: T,
+    ) -> Option<(T, Barycentric<T>)> {
+        let origin = Vec3::new(origin_x, origin_y, origin_z);
+        let direction = Vec3::new(direction_x, direction_y, direction_z);
         // Turn the axes so that z is the ray's largest component; the winding does not matter here.
-        let turn = Turn::largest_to_z(ray.direction);
-        let d = turn.apply(ray.direction);
+        let turn = Turn::largest_to_z(direction);
+        let d = turn.apply(direction);
         let scale = T::ONE / d.z;
         let (shear_x, shear_y) = (d.x / d.z, d.y / d.z);
         let shear = |vertex: Vec3<T>| {
-            let v = turn.apply(vertex - ray.origin);
+            let v = turn.apply(vertex - origin);
             Vec3::new(v.x - shear_x * v.z, v.y - shear_y * v.z, scale * v.z)
         };
         let [v1, v2, v3] = self.vertices;
@@ -193,7 +207,7 @@ impl<T: Scalar> Triangle<T> {
         }
         let inverse = T::ONE / determinant;
         let t = (u * a.z + v * b.z + w * c.z) * inverse;
-        if t.is_positive() && t.is_up_to(t_max) {
+        if t.is_positive() {
             let place = Barycentric {
                 v2: v * inverse,
                 v3: w * inverse,

@@ -9,18 +9,19 @@ mod tree;
 pub use observer::{LightAtHit, Meeting, Observer, RayCount, RayKind, TestKind, WorkCount};
 
 use core::fmt;
+use core::ops::Range;
 
 use crate::background::Background;
 use crate::camera::{Resolution, Subpixel};
 use crate::color::Color;
 use crate::material::{Interface, Material};
-use crate::ray::{ObjectNumber, Ray, Side};
+use crate::ray::{Ray, Side};
 use crate::scalar::Scalar;
 use crate::scene::{Members, Needs, Object, ObjectSet, Reach, Scene, Zone};
 use crate::shape::{Barycentric, Plane, Sphere, Surface, Triangle};
 use crate::vec3::Vec3;
 use crate::visibility::visible_in_row;
-use stack::{Branch, Frame, Stack, Throughputs};
+use stack::{Frame, Refracted, Stack, Throughputs, Waiting};
 
 /// How many secondary rays may follow one another unless the tracer is told otherwise.
 pub const DEFAULT_MAX_DEPTH: usize = 5;
@@ -108,8 +109,8 @@ impl core::error::Error for MissingStages {}
 pub(crate) struct Hit<'a, T> {
     /// The side the ray comes from.
     facing: Side,
-    /// The side beyond.
-    beyond: Side,
+    /// What rays can meet that leave that side.
+    reach: &'a Reach,
     /// The place, if it lies on a plane in a part that is divided.
     zone: Option<Zone<'a>>,
     material: &'a Material<T>,
@@ -158,9 +159,7 @@ pub struct Nearest<'a, T = f32> {
 struct Closest<T> {
     /// Distance along the ray; the largest number if there is no meeting yet.
     t: T,
-    /// Number of the object.
-    number: ObjectNumber,
-    /// Its index among all objects; beyond all if there is none.
+    /// Index of the object among all objects; beyond all if there is none.
     index: usize,
     /// Where on it, if it is a triangle.
     place: Barycentric<T>,
@@ -169,7 +168,6 @@ struct Closest<T> {
 impl<T: Scalar> Closest<T> {
     const NONE: Self = Self {
         t: T::MAX,
-        number: ObjectNumber::MAX,
         index: usize::MAX,
         place: Barycentric {
             v2: T::ZERO,
@@ -178,21 +176,15 @@ impl<T: Scalar> Closest<T> {
     };
 
     /// Takes a meeting if it comes before the closest so far, and tells whether it did: of
-    /// two at exactly the same distance the first in the file wins.
+    /// two at exactly the same distance the first in the file wins, which `is_first` tells.
     #[inline(always)]
-    fn offer(&mut self, t: T, index: usize, surface: Surface) -> bool {
-        if !(t.is_before(self.t) || (t == self.t && surface.number < self.number)) {
-            return false;
+    fn offer(&mut self, t: T, index: usize, is_first: impl FnOnce(usize) -> bool) -> bool {
+        let is_closer = t.is_before(self.t) || (t == self.t && is_first(self.index));
+        if is_closer {
+            self.t = t;
+            self.index = index;
         }
-        self.take(t, index, surface);
-        true
-    }
-
-    #[inline(always)]
-    fn take(&mut self, t: T, index: usize, surface: Surface) {
-        self.t = t;
-        self.number = surface.number;
-        self.index = index;
+        is_closer
     }
 }
 
@@ -220,8 +212,9 @@ impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Needs::ALL.bits() }, STA
 }
 
 impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, STACK> {
-    /// Bytes of each of the `STACK` frames, which are on the call stack while a ray is traced.
-    pub const FRAME_BYTES: usize = size_of::<Frame<T>>();
+    /// Bytes of each of the `STACK` frames, with room for the refracted ray of each, which are on the call
+    /// stack while a ray is traced.
+    pub const FRAME_BYTES: usize = size_of::<Frame<T>>() + size_of::<Refracted<T>>();
 
     /// Stages and stack as the type says, unchecked: stages the scene needs beyond `NEEDS` are simply
     /// not drawn.
@@ -347,6 +340,35 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         }
     }
 
+    /// Whether an object comes before that of an index in the file; it does if there is none.
+    #[inline(always)]
+    fn is_before(&self, surface: Surface) -> impl Fn(usize) -> bool {
+        move |index| {
+            let other = if let Some(sphere) = self.sphere(index) {
+                sphere.surface()
+            } else if let Some(plane) = self.plane(index) {
+                plane.surface()
+            } else if let Some(triangle) = self.triangle(index) {
+                triangle.surface()
+            } else {
+                return true;
+            };
+            surface.number < other.number
+        }
+    }
+
+    /// The indices of the spheres, the planes and the triangles.
+    #[inline(always)]
+    fn ranges(&self) -> [Range<usize>; 3] {
+        let planes = self.scene.spheres.len();
+        let triangles = planes + self.scene.planes.len();
+        [
+            0..planes,
+            planes..triangles,
+            triangles..triangles + self.scene.triangles.len(),
+        ]
+    }
+
     #[inline(always)]
     fn closest(
         &self,
@@ -360,7 +382,9 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             return closest;
         }
         let mut members = self.members(candidates);
+        let [spheres, planes, triangles] = self.ranges();
         members.walk(
+            spheres,
             |index| self.sphere(index),
             |index, sphere| {
                 observer.test_object(Object::Sphere(sphere), ray, closest.t);
@@ -368,27 +392,29 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                 if let Some(t) = sphere.meet(ray)
                     && t.is_before(closest.t)
                 {
-                    closest.take(t, index, sphere.surface());
+                    (closest.t, closest.index) = (t, index);
                 }
                 false
             },
         );
         members.walk(
+            planes,
             |index| self.plane(index),
             |index, plane| {
                 observer.test_object(Object::Plane(plane), ray, closest.t);
                 if let Some(t) = plane.meet(ray) {
-                    closest.offer(t, index, plane.surface());
+                    closest.offer(t, index, self.is_before(plane.surface()));
                 }
                 false
             },
         );
         members.walk(
+            triangles,
             |index| self.triangle(index),
             |index, triangle| {
                 observer.test_object(Object::Triangle(triangle), ray, closest.t);
                 if let Some((t, place)) = triangle.intersect(ray, closest.t)
-                    && closest.offer(t, index, triangle.surface())
+                    && closest.offer(t, index, self.is_before(triangle.surface()))
                 {
                     closest.place = place;
                 }
@@ -417,19 +443,23 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             return self.occluded_in_tree(ray, t_max, casts_shadow, observer);
         }
         let mut members = self.members(candidates);
+        let [spheres, planes, triangles] = self.ranges();
         members.walk(
+            spheres,
             |index| self.sphere(index),
             |_, sphere| {
                 observer.test_object(Object::Sphere(sphere), ray, t_max);
                 sphere.occludes(ray, t_max) && casts_shadow(sphere.surface())
             },
         ) || members.walk(
+            planes,
             |index| self.plane(index),
             |_, plane| {
                 observer.test_object(Object::Plane(plane), ray, t_max);
                 plane.occludes(ray, t_max) && casts_shadow(plane.surface())
             },
         ) || members.walk(
+            triangles,
             |index| self.triangle(index),
             |_, triangle| {
                 observer.test_object(Object::Triangle(triangle), ray, t_max);
@@ -448,7 +478,15 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
     /// What rays can meet that leave a side of an object.
     #[inline(always)]
     fn reach(&self, side: Side) -> &'a Reach {
-        self.scene.sides.get(side.index()).unwrap_or(&Reach::ALL)
+        #[cold]
+        #[inline(never)]
+        fn anything() -> &'static Reach {
+            &Reach::ALL
+        }
+        match self.scene.sides.get(side.index()) {
+            Some(reach) => reach,
+            None => anything(),
+        }
     }
 
     #[inline(always)]
@@ -474,93 +512,104 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         observer: &mut impl Observer<T>,
     ) -> Color<T> {
         let mut stack = Stack::<T, STACK>::new();
+        let mut waiting = Waiting::<T, STACK>::new();
         let mut ray = ray;
         let mut candidates = candidates;
         let mut kind = RayKind::Primary;
         let mut throughput = T::ONE;
         let mut allowance = self.cutoff;
-        let mut waiting = Throughputs::<T, STACK>::new();
+        let mut throughputs = Throughputs::<T, STACK>::new();
         loop {
             observer.ray(kind, stack.len(), &ray);
-            // The colour of the ray under way, once no secondary ray is left to cast for it.
+            // What is known of the colour of the ray under way, whether that is a sum still to be clamped, and
+            // whether a refracted ray of the same hit waits.
             let mut color;
+            let (mut is_sum, mut refracts) = (false, false);
             match self.hit(&ray, candidates, observer) {
                 None => color = self.background(ray.direction),
                 Some(hit) => {
-                    color = self.local_color(&ray, &hit, stack.len(), observer);
-                    observer.local_color(color);
+                    let mut weight = T::ZERO;
                     if stack.len() < self.max_depth {
                         let material = hit.material.description();
                         let mut shows = |weight| self.shows(throughput, weight, &mut allowance);
-                        let mirrors = shows(material.reflection);
-                        let refracted = self.refracted(&ray, &hit, shows(material.refraction));
-                        // Cast the mirror ray first and keep the refracted one for later.
-                        let (next, weight) = match self.mirrored(&ray, &hit, mirrors) {
-                            Some(mirrored) => {
-                                kind = RayKind::Reflected;
-                                ray = mirrored.ray;
-                                (refracted, Some(mirrored.weight))
-                            }
-                            None => match refracted {
-                                Some(refracted) => {
-                                    kind = RayKind::Refracted;
-                                    ray = refracted.ray;
-                                    (None, Some(refracted.weight))
-                                }
-                                None => (None, None),
-                            },
-                        };
-                        if let Some(weight) = weight {
-                            let frame = Frame {
-                                color,
-                                weight,
-                                next,
-                            };
-                            // There is room, because `max_depth ≤ STACK`.
-                            if stack.push(frame).is_ok() {
-                                if stage(NEEDS, Needs::CUTOFF) {
-                                    if next.is_some() {
-                                        let _ = waiting.push(throughput);
-                                    }
-                                    throughput = throughput * weight;
-                                }
-                                candidates = self.reach(ray.leaves).near(ray.direction);
-                                if stage(NEEDS, Needs::PLANES)
-                                    && let Some(zone) = hit.zone
-                                {
-                                    candidates = candidates.intersection(zone.ahead(ray.direction));
-                                }
-                                continue;
+                        if stage(NEEDS, Needs::REFLECTION) && shows(material.reflection) {
+                            weight = material.reflection;
+                        }
+                        // The mirror ray is cast first, and the refracted one kept for later.
+                        if stage(NEEDS, Needs::REFRACTION)
+                            && material.refraction.is_positive()
+                            && shows(material.refraction)
+                            && let Some(refracted) = self.refracted(&ray, &hit)
+                        {
+                            // There is room for it and for the frame, because `max_depth ≤ STACK`.
+                            refracts = waiting.push(refracted).is_ok();
+                            if stage(NEEDS, Needs::CUTOFF) {
+                                let _ = throughputs.push(throughput);
                             }
                         }
                     }
+                    color = self.local_color(&ray, &hit, stack.len(), observer);
+                    observer.local_color(color);
+                    if stage(NEEDS, Needs::REFLECTION) && weight.is_positive() {
+                        let _ = stack.push(Frame {
+                            color,
+                            weight: if refracts { -weight } else { weight },
+                        });
+                        kind = RayKind::Reflected;
+                        let direction = ray.direction.reflect_at(hit.normal, hit.cosine);
+                        candidates = self.near(hit.reach, hit.zone, direction);
+                        ray = Ray {
+                            origin: hit.outside,
+                            direction,
+                            leaves: hit.facing,
+                        };
+                        if stage(NEEDS, Needs::CUTOFF) {
+                            throughput = throughput * weight;
+                        }
+                        continue;
+                    }
+                    is_sum = true;
+                }
+            }
+            // Hand the colour up, to the first hit that has a ray left to cast.
+            loop {
+                if is_sum {
+                    if stage(NEEDS, Needs::REFRACTION)
+                        && refracts
+                        && let Some(refracted) = waiting.pop()
+                    {
+                        let weight = refracted.weight;
+                        let _ = stack.push(Frame { color, weight });
+                        if stage(NEEDS, Needs::CUTOFF)
+                            && let Some(at_hit) = throughputs.pop()
+                        {
+                            throughput = at_hit * weight;
+                        }
+                        kind = RayKind::Refracted;
+                        ray = refracted.ray;
+                        candidates = refracted.candidates;
+                        break;
+                    }
                     color = color.clamp();
                 }
-            }
-            // Hand the colour up, to the first frame that has a ray left to cast.
-            loop {
                 observer.result(color);
-                let Some(frame) = stack.last_mut() else {
+                let Some(frame) = stack.pop() else {
                     return color;
                 };
-                frame.color = frame.color + color * frame.weight;
-                if stage(NEEDS, Needs::REFRACTION)
-                    && let Some(branch) = frame.next.take()
-                {
-                    frame.weight = branch.weight;
-                    if stage(NEEDS, Needs::CUTOFF)
-                        && let Some(at_hit) = waiting.pop()
-                    {
-                        throughput = at_hit * branch.weight;
-                    }
-                    kind = RayKind::Refracted;
-                    ray = branch.ray;
-                    candidates = self.reach(ray.leaves).near(ray.direction);
-                    break;
-                }
-                color = frame.color.clamp();
-                stack.pop();
+                color = frame.color + color * frame.weight.abs();
+                is_sum = true;
+                refracts = frame.weight.is_negative();
             }
+        }
+    }
+
+    /// The objects that a secondary ray can meet first that leaves a side in a direction.
+    #[inline(always)]
+    fn near(&self, reach: &Reach, zone: Option<Zone<'_>>, direction: Vec3<T>) -> ObjectSet {
+        let near = reach.near(direction);
+        match zone {
+            Some(zone) if stage(NEEDS, Needs::PLANES) => near.intersection(zone.ahead(direction)),
+            _ => near,
         }
     }
 
@@ -591,9 +640,10 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         } else {
             -point.normal
         };
+        let facing = Side::new(surface.number, entering);
         let hit = Hit {
-            facing: Side::new(surface.number, entering),
-            beyond: Side::new(surface.number, !entering),
+            facing,
+            reach: self.reach(facing),
             zone,
             material: self.material(surface)?,
             normal,
@@ -612,34 +662,19 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         Some(hit)
     }
 
-    /// The mirror ray of a hit, if its material has one and it shows.
+    /// The refracted ray of a hit, unless it is totally reflected.
     #[inline(always)]
-    fn mirrored(&self, ray: &Ray<T>, hit: &Hit<'a, T>, shows: bool) -> Option<Branch<T>> {
-        let weight = hit.material.description().reflection;
-        (stage(NEEDS, Needs::REFLECTION) && weight.is_positive() && shows).then(|| Branch {
-            ray: Ray {
-                origin: hit.outside,
-                direction: ray.direction.reflect_at(hit.normal, hit.cosine),
-                leaves: hit.facing,
-            },
-            weight,
-        })
-    }
-
-    /// The refracted ray of a hit, if its material has one, it shows and it is not totally reflected.
-    #[inline(always)]
-    fn refracted(&self, ray: &Ray<T>, hit: &Hit<'a, T>, shows: bool) -> Option<Branch<T>> {
-        let weight = hit.material.description().refraction;
-        if !(stage(NEEDS, Needs::REFRACTION) && weight.is_positive() && shows) {
-            return None;
-        }
-        Some(Branch {
+    fn refracted(&self, ray: &Ray<T>, hit: &Hit<'a, T>) -> Option<Refracted<T>> {
+        let direction = self.refracted_direction(ray, hit)?;
+        let leaves = hit.facing.opposite();
+        Some(Refracted {
             ray: Ray {
                 origin: hit.inside,
-                direction: self.refracted_direction(ray, hit)?,
-                leaves: hit.beyond,
+                direction,
+                leaves,
             },
-            weight,
+            candidates: self.near(self.reach(leaves), hit.zone, direction),
+            weight: hit.material.description().refraction,
         })
     }
 

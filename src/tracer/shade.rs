@@ -20,7 +20,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
     ) -> Color<T> {
         let material = hit.material.description();
         let mut color = self.scene.ambient_color(material);
-        let reach = self.reach(hit.facing);
+        let reach = hit.reach;
         if !stage(NEEDS, Needs::LIGHT) {
             return color;
         }
@@ -67,7 +67,9 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             if stage(NEEDS, Needs::SPECULAR) && !material.specular.is_black() {
                 // R·V with R = 2(N·L)N − L and V = −d.
                 let alignment = cosine.double() * hit.cosine + direction.dot(ray.direction);
-                if alignment.is_positive() {
+                if alignment.upper_half() >= hit.material.faint_alignment()
+                    && alignment.is_positive()
+                {
                     let highlight = self.phong_power(alignment, hit.material);
                     let light = light.specular * highlight * material.specular;
                     color = color + light;

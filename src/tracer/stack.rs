@@ -1,12 +1,17 @@
-//! The bounded stack that stands for the recursion of Whitted's algorithm.
+//! The bounded stacks that stand for the recursion of Whitted's algorithm.
 
 use heapless::Vec;
 
 use crate::color::Color;
 use crate::ray::Ray;
+use crate::scene::ObjectSet;
 
 /// The frames from the primary hit down to the ray under way, whose depth is their number.
 pub(super) type Stack<T, const CAPACITY: usize> = Vec<Frame<T>, CAPACITY>;
+
+/// The refracted rays that wait, those of the frames with a negative weight in their order. Few hits
+/// have one, so that they would be dead weight in the frames.
+pub(super) type Waiting<T, const CAPACITY: usize> = Vec<Refracted<T>, CAPACITY>;
 
 /// For each refracted ray that waits, the throughput at its hit, with a cut-off alone: in the frames it
 /// would take room without one.
@@ -17,16 +22,16 @@ pub(super) type Throughputs<T, const CAPACITY: usize> = Vec<T, CAPACITY>;
 pub(super) struct Frame<T> {
     /// What is known of the colour so far, not yet clamped.
     pub(super) color: Color<T>,
-    /// The coefficient of the ray that is under way.
+    /// The coefficient of the ray that is under way; negative, −0 too, while the refracted ray waits.
     pub(super) weight: T,
-    /// The other ray of the hit, still to be cast.
-    pub(super) next: Option<Branch<T>>,
 }
 
 /// A refracted ray that waits until the mirror ray of the same hit is done.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Branch<T> {
+pub(super) struct Refracted<T> {
     pub(super) ray: Ray<T>,
+    /// The objects it can meet first.
+    pub(super) candidates: ObjectSet,
     /// What its colour is multiplied with.
     pub(super) weight: T,
 }

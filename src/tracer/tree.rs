@@ -32,7 +32,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                     {
                         observer.test_object(Object::Sphere(sphere), ray, closest.t);
                         if let Some(t) = sphere.meet(ray) {
-                            closest.offer(t, entry.index(), sphere.surface());
+                            closest.offer(t, entry.index(), self.is_before(sphere.surface()));
                         }
                     }
                 } else if stage(NEEDS, Needs::TRIANGLES)
@@ -41,7 +41,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                     observer.test_object(Object::Triangle(triangle), ray, closest.t);
                     let index = before_triangles + entry.index();
                     if let Some((t, place)) = triangle.intersect(ray, closest.t)
-                        && closest.offer(t, index, triangle.surface())
+                        && closest.offer(t, index, self.is_before(triangle.surface()))
                     {
                         closest.place = place;
                     }
@@ -52,7 +52,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             for (index, plane) in (self.scene.spheres.len()..).zip(self.scene.planes) {
                 observer.test_object(Object::Plane(plane), ray, closest.t);
                 if let Some(t) = plane.meet(ray) {
-                    closest.offer(t, index, plane.surface());
+                    closest.offer(t, index, self.is_before(plane.surface()));
                 }
             }
         }

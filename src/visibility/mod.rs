@@ -14,6 +14,7 @@
 //!
 //! Unbounded planes are excluded only where the argument does not depend on how far away they are met.
 
+mod highlights;
 mod row;
 mod side;
 mod tree;
@@ -98,6 +99,7 @@ impl<T: Scalar> PoolsMut<'_, T> {
     /// See [`ScenePools::prepare`].
     pub fn prepare(&mut self) {
         self.find_sides();
+        self.find_faint_highlights();
         self.build_tree();
     }
 }
@@ -122,6 +124,7 @@ impl<
         let mut pools = self.as_mut();
         pools.find_sides();
         pools.find_zones();
+        pools.find_faint_highlights();
         // Not compiled for pools without room.
         if const { TREE > 0 } {
             pools.build_tree();

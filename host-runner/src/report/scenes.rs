@@ -79,5 +79,6 @@ fn polynomial<T: Scalar>(material: &Material<T>) -> Material<T> {
         material.inverse_index(),
         material.bend(),
         Material::<T>::FRACTIONAL,
+        0,
     )
 }
