@@ -25,6 +25,7 @@ use crate::commands::tune::TuneArgs;
 use crate::commands::view::ViewArgs;
 #[cfg(feature = "window")]
 use crate::commands::window::WindowArgs;
+use crate::console::say;
 
 /// Draws scenes for small displays on the desktop, with the bits the device will draw.
 #[derive(Parser, Debug)]
@@ -118,10 +119,30 @@ impl Cli {
     /// The command that the program's arguments name. Ends the program for `--help` and for what
     /// cannot be understood.
     pub(crate) fn from_arguments() -> Command {
-        let cli = Self::try_parse().unwrap_or_else(|error| with_hint(error).exit());
+        let cli = Self::try_parse().unwrap_or_else(|error| {
+            let error = with_hint(error);
+            // Nobody may listen.
+            let _ = error.print();
+            if error.kind() == ErrorKind::MissingRequiredArgument
+                && let Some(example) = example_of_the_command()
+            {
+                say(format_args!("For example: {example}"));
+            }
+            std::process::exit(error.exit_code())
+        });
         cli.command
             .unwrap_or_else(|| Command::Render(NoCommand::parse_from([""; 0]).render))
     }
+}
+
+/// The first example of the command that the arguments begin with.
+fn example_of_the_command() -> Option<String> {
+    let name = std::env::args().nth(1)?;
+    let cli = Cli::command();
+    let help = cli.find_subcommand(&name)?.get_after_help()?.to_string();
+    let mut lines = help.lines().map(str::trim_start);
+    let example = lines.find(|line| line.starts_with(&format!("scanray {name} ")))?;
+    Some(example.split("  ").next()?.to_owned())
 }
 
 /// Adds what a newcomer may have meant: a scene or an option without the command.
@@ -143,6 +164,11 @@ fn with_hint(error: clap::Error) -> clap::Error {
         ErrorKind::InvalidSubcommand => word(ContextKind::InvalidSubcommand)
             .filter(|word| word.ends_with(".txt") || Path::new(word).exists())
             .map(|path| format!("{path} is no command; to draw it: scanray render {path}")),
+        ErrorKind::InvalidValue if std::env::args().skip(1).any(|word| word.is_empty()) => {
+            word(ContextKind::InvalidArg).map(|argument| {
+                format!("{argument} is empty: a variable that is not set, perhaps?")
+            })
+        }
         // A negative column looks like an option.
         ErrorKind::UnknownArgument if std::env::args().nth(1).is_some_and(|a| a == "pixel") => {
             let is_negative = |argument: &String| {

@@ -41,7 +41,7 @@ pub(crate) fn places(
 ) -> Result<Vec<Vec<PictureFile>>, Failure> {
     let default_extension = if turntable.is_some() { "gif" } else { "ppm" };
     let by_path = |path: &Path| -> Result<Vec<PictureFile>, Failure> {
-        single_place(path).and_then(|place| files(path, place, turntable))
+        single_place(path, ImageFormat::ALL).and_then(|place| files(path, place, turntable))
     };
     let by_name = |folder: &Path| -> Result<Vec<Vec<PictureFile>>, Failure> {
         let paths: Vec<_> = scenes
@@ -73,12 +73,15 @@ pub(crate) fn places(
     }
 }
 
-/// The place that `-o` names for one picture.
+/// The place that `-o` names for one picture in one of these formats.
 ///
 /// # Errors
 ///
 /// [`Failure::Usage`], and [`Failure::Files`] for a file that cannot be written.
-pub(crate) fn single_place(output: &Path) -> Result<(Place, ImageFormat), Failure> {
+pub(crate) fn single_place(
+    output: &Path,
+    formats: &[ImageFormat],
+) -> Result<(Place, ImageFormat), Failure> {
     if output.as_os_str() == "-" {
         if io::stdout().is_terminal() {
             return Err(Failure::Usage(
@@ -94,11 +97,20 @@ pub(crate) fn single_place(output: &Path) -> Result<(Place, ImageFormat), Failur
             "-o {name}: there is no such folder"
         )));
     }
-    let format = ImageFormat::of(output);
+    let format = ImageFormat::of(output).filter(|format| formats.contains(format));
     // A device or pipe has no extension.
     if format.is_none() && !output.metadata().is_ok_and(|there| !there.is_file()) {
+        let extensions: Vec<String> = formats
+            .iter()
+            .map(|format| format!(".{}", format.extension()))
+            .collect();
+        let (last, others) = extensions
+            .split_last()
+            .map_or(("", String::new()), |(last, others)| {
+                (last, others.join(", "))
+            });
         return Err(Failure::Usage(format!(
-            "-o {name}: the name must end in .ppm, .png or .gif"
+            "-o {name}: the name must end in {others} or {last}"
         )));
     }
     Ok((Place::file(output)?, format.unwrap_or(ImageFormat::Ppm)))

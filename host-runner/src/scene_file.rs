@@ -73,13 +73,17 @@ impl SceneSource {
     ///
     /// [`Failure::Files`].
     pub(crate) fn read(&self) -> Result<Vec<u8>, Failure> {
-        let cannot =
-            |error: io::Error| Failure::Files(format!("cannot read {}: {error}", self.name()));
-        if matches!(self, Self::File(path) if path.as_os_str().is_empty()) {
-            return Err(Failure::Usage(
-                "the name of the scene is empty: name a file, or `-` for standard input".to_owned(),
-            ));
-        }
+        let cannot = |error: io::Error| {
+            let why = match error.kind() {
+                io::ErrorKind::NotFound => {
+                    "there is no such file (scanray example > scene.txt writes one to start from)"
+                        .to_owned()
+                }
+                io::ErrorKind::IsADirectory => "it is a folder; name a scene in it".to_owned(),
+                _ => error.to_string(),
+            };
+            Failure::Files(format!("cannot read {}: {why}", self.name()))
+        };
         let mut text = Vec::new();
         let input: &mut dyn Read = match self {
             Self::Default => return Ok(DEFAULT_SCENE.to_vec()),

@@ -1,7 +1,7 @@
 //! `scanray diff`: how different two pictures are.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
@@ -13,7 +13,6 @@ use crate::failure::Failure;
 use crate::image::{self, Image, ImageFormat};
 use crate::memory::require;
 use crate::options::whole;
-use crate::output::Place;
 use crate::places::{refuse_input_as_output, single_place};
 
 /// The command line.
@@ -131,7 +130,7 @@ pub(crate) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     let place = match &args.output {
         Some(output) => {
             refuse_input_as_output(output, [&args.reference, &args.test])?;
-            Some(place_of_map(output)?)
+            Some(single_place(output, ImageFormat::EXACT)?)
         }
         None => None,
     };
@@ -207,18 +206,6 @@ pub(crate) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
         0 => ExitCode::SUCCESS,
         _ => ExitCode::from(1),
     })
-}
-
-/// Where the picture of the differences goes.
-fn place_of_map(output: &Path) -> Result<(Place, ImageFormat), Failure> {
-    let (place, format) = single_place(output)?;
-    if format == ImageFormat::Gif {
-        return Err(Failure::Usage(format!(
-            "-o {}: a GIF file has too few colours for the differences; the name must end in .ppm or .png",
-            output.display()
-        )));
-    }
-    Ok((place, format))
 }
 
 impl Measures {

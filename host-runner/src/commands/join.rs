@@ -81,7 +81,7 @@ pub(crate) fn run(args: &JoinArgs) -> Result<ExitCode, Failure> {
     refuse_gaps(&pictures, &parts[0].record)?;
 
     let turntable = steps.map(|of| Steps { range: 0..of, of });
-    let place = single_place(&args.output)?;
+    let place = single_place(&args.output, ImageFormat::ALL)?;
     let progress = Progress::new("Joining".to_owned(), parts.len() as u64);
     for file in files(&args.output, place, turntable.as_ref())? {
         let pictures = &pictures[usize::from(file.steps.start)..usize::from(file.steps.end)];

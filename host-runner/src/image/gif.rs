@@ -12,8 +12,8 @@ use crate::memory::{Shortage, require, room};
 /// Colours of a palette.
 const PALETTE: usize = 256;
 
-/// Of so many pixels one is looked at when a palette is chosen; 1 is the best and slowest.
-const SAMPLING: i32 = 3;
+/// About as many pixels are looked at when a palette is chosen: all that small displays have.
+const LOOKED_AT: usize = 1 << 18;
 
 /// All colours of 8 bits a channel.
 const COLORS: usize = 1 << 24;
@@ -138,7 +138,8 @@ fn exact(rgba: &[u8], indices: &mut Vec<u8>) -> Option<Vec<u8>> {
 
 /// 256 colours near all others, and the index of the one nearest to each pixel.
 fn approximate(rgba: &[u8], indices: &mut Vec<u8>) -> Result<Vec<u8>, Shortage> {
-    let network = NeuQuant::new(SAMPLING, PALETTE, rgba);
+    let sampling = (rgba.len() / 4).div_ceil(LOOKED_AT).clamp(1, 30);
+    let network = NeuQuant::new(sampling as i32, PALETTE, rgba);
     // One more than the index of each colour that was met before.
     require(2 * COLORS as u64, "a GIF of many colours", REMEDY)?;
     let mut known = vec![0_u16; COLORS];

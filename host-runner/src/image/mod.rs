@@ -24,18 +24,26 @@ pub(crate) enum ImageFormat {
 }
 
 impl ImageFormat {
+    /// All there are.
+    pub(crate) const ALL: &[Self] = &[Self::Ppm, Self::Png, Self::Gif];
+
+    /// Those that keep every colour.
+    pub(crate) const EXACT: &[Self] = &[Self::Ppm, Self::Png];
+
+    /// The extension of its files.
+    pub(crate) const fn extension(self) -> &'static str {
+        match self {
+            Self::Ppm => "ppm",
+            Self::Png => "png",
+            Self::Gif => "gif",
+        }
+    }
+
     /// The format that a file's extension stands for.
     pub(crate) fn of(path: &Path) -> Option<Self> {
         let extension = path.extension()?;
-        if extension.eq_ignore_ascii_case("ppm") {
-            Some(Self::Ppm)
-        } else if extension.eq_ignore_ascii_case("png") {
-            Some(Self::Png)
-        } else if extension.eq_ignore_ascii_case("gif") {
-            Some(Self::Gif)
-        } else {
-            None
-        }
+        let mut formats = Self::ALL.iter().copied();
+        formats.find(|format| extension.eq_ignore_ascii_case(format.extension()))
     }
 }
 

@@ -165,8 +165,13 @@ fn wrong_input_is_told() {
         ),
         (
             2,
+            &["diff", "a.ppm", "a.ppm", "-o", "a.gif"],
+            "-o a.gif: the name must end in .ppm or .png",
+        ),
+        (
+            2,
             &["diff", "a.ppm", "a.ppm", "-o", "a.jpg"],
-            "must end in .ppm, .png or .gif",
+            "-o a.jpg: the name must end in .ppm or .png",
         ),
         (
             2,

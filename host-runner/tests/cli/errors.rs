@@ -68,6 +68,22 @@ fn usage_errors_say_what_to_do() {
         (&["render", "--color", "rgb"], "possible values: rgb888, "),
         (&["render", "--scalar", "f16"], "possible values: f32, f64"),
         (
+            &["render", "-o", ""],
+            "--output <FILE> is empty: a variable that is not set, perhaps?",
+        ),
+        (
+            &["render", ""],
+            "[SCENE]... is empty: a variable that is not set, perhaps?",
+        ),
+        (
+            &["pixel", "4,3"],
+            "For example: scanray pixel scene.txt 4,3\n",
+        ),
+        (
+            &["join"],
+            "For example: scanray join upper.ppm lower.ppm -o whole.png\n",
+        ),
+        (
             &["render", "-o", "picture.jpg"],
             "must end in .ppm, .png or .gif",
         ),

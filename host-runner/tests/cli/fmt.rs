@@ -1,6 +1,6 @@
 //! Scenes in canonical form.
 
-use crate::program::{Folder, SMALL_SCENE, scene};
+use crate::program::{Folder, SMALL_SCENE, scene, tell};
 
 /// The small scene in canonical form.
 const CANONICAL: &str = "\
@@ -32,6 +32,28 @@ fn rewrites_in_place_once() {
     );
     assert_eq!(folder.succeed(&["fmt", "a.txt", "b.txt"]).stderr, "");
     assert_eq!(folder.names(), ["a.txt", "b.txt"]);
+}
+
+#[test]
+#[cfg(unix)]
+fn the_file_keeps_its_owner_and_its_mode() {
+    use std::fs::{Permissions, set_permissions};
+    use std::os::unix::fs::{MetadataExt, PermissionsExt, chown};
+    let folder = Folder::new();
+    folder.write("a.txt", SMALL_SCENE);
+    let path = folder.path("a.txt");
+    if chown(&path, Some(12_345), Some(23_456)).is_err() {
+        tell("only the mode is tested, because no file can be given to others here: fmt");
+    }
+    set_permissions(&path, Permissions::from_mode(0o624)).unwrap();
+    let ids = || {
+        let metadata = path.metadata().unwrap();
+        (metadata.uid(), metadata.gid(), metadata.mode() & 0o7777)
+    };
+    let before = ids();
+    folder.succeed(&["fmt", "a.txt"]);
+    assert_eq!(folder.read("a.txt"), CANONICAL.as_bytes());
+    assert_eq!(ids(), before);
 }
 
 #[test]

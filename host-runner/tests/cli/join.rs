@@ -392,7 +392,7 @@ fn other_programs_read_the_parts() {
                 readers += 1;
             }
             _ => tell(&format!(
-                "not tried, because {program} is not installed: reading parts"
+                "not tried, because {program} (or its library) is not installed: reading parts"
             )),
         }
     }
