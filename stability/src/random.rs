@@ -18,11 +18,33 @@ impl Random {
     }
 
     /// The seed that the environment variable `SEED` names, or else the default.
+    ///
+    /// # Panics
+    ///
+    /// When it names none: [`Random::named_seed`] tells before.
     pub fn seed(default: u64) -> u64 {
-        match std::env::var("SEED") {
-            Ok(seed) => seed.parse().expect("SEED is a whole number"),
-            Err(_) => default,
+        match Self::named_seed() {
+            Ok(seed) => seed.unwrap_or(default),
+            Err(why) => panic!("{why}"),
         }
+    }
+
+    /// The seed that the environment variable `SEED` names, if it is set.
+    ///
+    /// # Errors
+    ///
+    /// A sentence, when it is no seed.
+    pub fn named_seed() -> Result<Option<u64>, String> {
+        let Some(word) = std::env::var_os("SEED") else {
+            return Ok(None);
+        };
+        let word = word.to_string_lossy();
+        word.parse().map(Some).map_err(|_| {
+            format!(
+                "SEED is `{word}`: give it a whole number from 0 to {}, or unset it",
+                u64::MAX
+            )
+        })
     }
 
     /// The generator of a seed.

@@ -81,3 +81,26 @@ fn the_table_names_the_cases_and_counts_the_figures() {
     let run = folder.run(&["stability", "70"]);
     assert_eq!(run.code, 2, "{}", run.stderr);
 }
+
+#[test]
+fn seeds_are_printed_and_asked_for() {
+    let folder = Folder::new();
+    let measured = |seed: &str| {
+        let mut program = folder.program(&["stability", "3"]);
+        let output = program.env("SEED", seed).output().unwrap();
+        let [table, said] =
+            [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+        (output.status.code(), table, said)
+    };
+    let (code, table, _) = measured("7");
+    assert_eq!(code, Some(0), "{table}");
+    assert!(table.contains(" (seed 7)"), "{table}");
+    for word in ["word", "-1", ""] {
+        let (code, _, said) = measured(word);
+        assert_eq!(code, Some(2), "{said}");
+        assert!(
+            said.contains(&format!("SEED is `{word}`: give it a whole number")),
+            "{said}"
+        );
+    }
+}

@@ -26,7 +26,7 @@ cases! { Shading:
     38 light_behind_the_surface: "ambient light alone";
     39 light_of_intensity_1e30: "clamped";
     40 facing_mirrors_of_coefficient_1: "at most max_depth + 1 rays, and the partial sum of the series";
-    41 mirrors_of_0_9_at_depth_16: "tier A";
+    41 mirrors_of_0_9_at_depth_16: "the default scene with mirrors: tier A; the room of mirrors: tier B";
     42 length_of_directions: "off 1 by at most 2e-7 at any depth";
     43 objects_of_index_1: "settled pixels as without, at most 1 level off";
     44 index_next_to_1: "index 1.0001 and 0.9999: total reflection misclassified 0";

@@ -58,13 +58,19 @@ fn significant(value: f64) -> String {
 /// The columns of a finding: what, of how many, measured, bound, by the textbook, whether it passes.
 fn columns(finding: &Finding) -> [String; 6] {
     let value = |value: f64| figure(finding.quantity, value);
+    let seed = finding.seed.map(|seed| format!(" (seed {seed})"));
     [
-        finding.what.clone(),
+        finding.what.clone() + &seed.unwrap_or_default(),
         finding.of.to_string(),
         value(finding.measured),
         finding.bound.map_or_else(|| "–".to_owned(), value),
         finding.textbook.map(value).unwrap_or_default(),
-        if finding.pass { "yes" } else { "NO" }.to_owned(),
+        match (finding.bound, finding.pass) {
+            (None, _) => "–",
+            (Some(_), true) => "yes",
+            (Some(_), false) => "NO",
+        }
+        .to_owned(),
     ]
 }
 
@@ -95,9 +101,13 @@ pub(super) fn write_table(out: &mut dyn Write, measured: &[Measured]) -> io::Res
         }
         for finding in findings {
             let [what, of, value, bound, textbook, pass] = columns(finding);
+            let bound = match finding.bound {
+                Some(_) => format!("at most {bound}"),
+                None => "no bound".to_owned(),
+            };
             write!(
                 out,
-                "   {}  {pass:<3}  {value:>9}  (at most {bound}) of {of}: {what}",
+                "   {}  {pass:<3}  {value:>9}  ({bound}) of {of}: {what}",
                 scalar.name()
             )?;
             if !textbook.is_empty() {
@@ -242,21 +252,32 @@ mod tests {
             seed: Some(7),
             textbook: None,
         };
+        let informs = Finding {
+            what: "pixels not settled".to_owned(),
+            bound: None,
+            pass: true,
+            seed: None,
+            ..finding.clone()
+        };
         let measured = [Measured {
             case: Case::all()[0],
             scalar: ScalarName::F32,
-            findings: vec![finding],
+            findings: vec![finding, informs],
         }];
         assert!(!measured[0].passes());
         let mut table = Vec::new();
         write_table(&mut table, &measured).unwrap();
         let table = String::from_utf8(table).unwrap();
         assert!(
-            table.contains("f32  NO           1  (at most 0) of 20000: leaks"),
+            table.contains("f32  NO           1  (at most 0) of 20000: leaks (seed 7)"),
             "{table}"
         );
         assert!(
-            table.ends_with("1 figures, 1 beyond their bound\n"),
+            table.contains("f32  –            1  (no bound) of 20000: pixels not settled\n"),
+            "{table}"
+        );
+        assert!(
+            table.ends_with("2 figures, 1 beyond their bound\n"),
             "{table}"
         );
     }
