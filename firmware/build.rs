@@ -2,11 +2,24 @@
 //! `../scenes/default.txt` unless it is set.
 //!
 //! `SCANRAY_WITHOUT` names a stage that `picture` leaves out although the scene needs it, to see what the stage costs.
-//! `SCANRAY_CUTOFF` is the cut-off of `cutoff`.
+//! `SCANRAY_CUTOFF` is the cut-off of `cutoff`. `SCANRAY_SETTINGS` are the items that `settings` includes, and
+//! `SCANRAY_POWER=polynomial` computes its highlights as if no shininess were a whole number.
 
 use std::{env, fs, path::Path};
 
-use scanray::ScenePools;
+use scanray::{Material, Scene, ScenePools};
+
+/// A picture as a program draws it that sets nothing.
+const DEFAULT_SETTINGS: &str = "
+type Shown = embedded_graphics::pixelcolor::Rgb888;
+const DITHERED: bool = false;
+const RESOLUTION: Resolution = Resolution { width: 160, height: 120 };
+const METHOD: Method = Method::Fixed;
+const SAMPLES: usize = 1;
+const STACK: usize = 5;
+const RUNS: &[Run] = &[Run { max_depth: 5, cutoff: 0.0, threshold: 0.0, block: 1, of_rows: 1 }];
+macro_rules! tracer { ($run:ident) => { tracer_for!(SCENE, stack = STACK) } }
+";
 
 fn main() {
     let path = env::var("SCANRAY_SCENE").unwrap_or_else(|_| "../scenes/default.txt".into());
@@ -20,10 +33,16 @@ fn main() {
         let file = Path::new(&out).join(name);
         fs::write(&file, content).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
     };
-    place(
-        "scene.rs",
-        scanray::bake(&pools.as_scene()).to_string().as_bytes(),
-    );
+    let scene = pools.as_scene();
+    let materials = match env::var("SCANRAY_POWER").as_deref() {
+        Ok("polynomial") => scene.materials.iter().map(without_squaring).collect(),
+        _ => scene.materials.to_vec(),
+    };
+    let scene = Scene {
+        materials: &materials,
+        ..scene
+    };
+    place("scene.rs", scanray::bake(&scene).to_string().as_bytes());
     place("scene.txt", &text);
     let without = env::var("SCANRAY_WITHOUT").unwrap_or_else(|_| "NONE".into());
     place(
@@ -32,9 +51,23 @@ fn main() {
     );
     let cutoff = env::var("SCANRAY_CUTOFF").unwrap_or_else(|_| "1.0 / 256.0".into());
     place("cutoff.rs", cutoff.as_bytes());
+    let settings = env::var("SCANRAY_SETTINGS").unwrap_or_else(|_| DEFAULT_SETTINGS.into());
+    place("settings.rs", settings.as_bytes());
 
     println!("cargo:rerun-if-changed={path}");
     println!("cargo:rerun-if-env-changed=SCANRAY_SCENE");
     println!("cargo:rerun-if-env-changed=SCANRAY_WITHOUT");
     println!("cargo:rerun-if-env-changed=SCANRAY_CUTOFF");
+    println!("cargo:rerun-if-env-changed=SCANRAY_SETTINGS");
+    println!("cargo:rerun-if-env-changed=SCANRAY_POWER");
+}
+
+/// The same material, whose shininess is not taken for a whole number.
+fn without_squaring(material: &Material) -> Material {
+    Material::from_parts(
+        *material.description(),
+        material.inverse_index(),
+        material.bend(),
+        Material::<f32>::FRACTIONAL,
+    )
 }

@@ -22,6 +22,7 @@ import emulate
 import instruction_model
 import oled
 import profiler
+import settings
 import stack_bound
 from builder import BOARDS, FIRMWARE, Builder, Failed, compiler, scenes
 from tables import compare, compare_costs, compare_readme, table
@@ -38,6 +39,8 @@ LIMITS = {("default", "flash"): 7936, ("default", "stack"): 680, ("default", "ra
 STAGES = ("SHADOWS", "SPECULAR", "REFLECTION", "REFRACTION", "BENDING", "PLANES", "TRIANGLES")
 # Scenes with a tree -> triangles, as in `scanray generate icosphere --count`.
 LARGE_SCENES = {"boulder": 980, "gem": 80}
+# Scenes that are drawn with settings that the host's model is asked about.
+PREDICTED = ("default", "mirror-room")
 
 
 class Report:
@@ -411,7 +414,7 @@ def check_all(builder, report, bless):
     print(cycles, end="")
     report.check("cycles", lambda: compare_costs(f"cycles-{compiler()}.txt", cycles, bless))
     report.check("README", lambda: compare_readme(bless))
-    model_checks(report, boards, program)
+    model_checks(report, boards, program, builder, large)
     for row, figure in LIMITS:
         report.check(f"M4F {row} {figure}", lambda: limit_check(boards[0], row, figure))
 
@@ -420,21 +423,31 @@ def large_scenes(program, folder):
     """Scenes with a tree, generated: name -> file."""
     paths = {}
     for name, triangles in LARGE_SCENES.items():
-        paths[name] = os.path.join(os.path.abspath(folder), f"{name}.txt")
-        subprocess.run([program, "generate", "icosphere", "--count", str(triangles), "-o", paths[name]], check=True,
-                       capture_output=True)
+        paths[name] = instruction_model.generate(program, folder, name, "icosphere", triangles)
     return paths
 
 
-def model_checks(report, boards, program):
-    """The host's prediction of instructions against what the boards counted: a line for each scene and board."""
-    for scene, path in scenes().items():
-        predicted = instruction_model.figures(program, path, (160, 120))["predicted_instructions_per_pixel"]
+def model_checks(report, boards, program, builder, large):
+    """The host's prediction of instructions against what the boards counted: a line for each scene and board, and for
+    settings such as `scanray tune` recommends."""
+    predictions = "predicted_instructions_per_pixel"
+    for scene, path in (scenes() | large).items():
+        predicted = instruction_model.figures(program, path, (160, 120))[predictions]
         for board in boards:
             measured, core = board.measured.get((scene, "size")), BOARDS[board.name][1]
             if measured and core in predicted:
                 report.check(f"{core} {scene}, predicted",
                              lambda: instruction_model.compare(predicted[core], measured.instructions))
+    size, recommended = instruction_model.SIZE, instruction_model.RECOMMENDED
+    paths = [os.path.join(FIRMWARE, scenes()[scene]) for scene in PREDICTED]
+    for scene, index, core, counted in settings.all_counts(builder, size, instruction_model.CORES, paths, recommended):
+        def check():
+            if isinstance(counted, Exception):
+                raise Failed(str(counted))
+            predicted = instruction_model.figures(program, paths[scene], size, recommended[index])[predictions]
+            return instruction_model.compare(predicted[core], counted)
+
+        report.check(f"{core} {PREDICTED[scene]}, recommended setting {index + 1}, predicted", check)
 
 
 def oled_checks(builder, report, reference, bless):

@@ -1,37 +1,56 @@
 #!/usr/bin/env python3
 """Fits the host's instruction model to pictures drawn under emulation, and writes its coefficients.
 
-    instruction_model.py [--dry-run]
+    instruction_model.py [--dry-run] [--counted FILE]
 
-Draws the scenes of ../scenes and scenes/, and scenes made up at random, at several maximum depths on the M4F, M3 and M0, and has
+Draws the scenes of ../scenes and scenes/, scenes made up at random and scenes with a tree on the M4F, M3 and M0, with SETTINGS, and has
 `scanray render --json` count what the tracer does for the same pictures: rays, tests and hits by kind. The coefficients are the
-instructions that each of these takes, none below 0, with the least sum of squared relative errors. Prints how far the model is
-off, for each scene also when it is fitted without the scene; writes ../host-runner/src/cost/instructions.txt unless told not to.
-Takes ten minutes or so on two cores.
+instructions that each of these takes, none below 0, with the least sum of squared relative errors, in which large errors weigh
+more. Prints how far the model is off, for each scene also when it is fitted without the scene, and for each setting; fails if it
+is off by more than 10 % somewhere. Writes ../host-runner/src/cost/instructions.txt unless told not to. `--counted` takes what the
+boards counted from a file if it is there, and else writes it, to try another model on it. Takes ten minutes or so on two cores.
 """
 
 import argparse
 import collections
-import concurrent.futures
 import json
+import operator
 import os
 import random
 import subprocess
 import sys
 import tempfile
 
-import emulate
-from builder import BOARDS, FIRMWARE, Builder, Failed, compiler, scenes
+import settings
+from builder import FIRMWARE, Builder, Failed, compiler, scenes
 
 TABLE = os.path.join(FIRMWARE, "..", "host-runner", "src", "cost", "instructions.txt")
-CORES = ("mps2-an386", "mps2-an385", "microbit")
+CORES = ("M4F", "M3", "M0")
 TERMS = ["primary_rays", "reflected_rays", "refracted_rays", "shadow_rays", "sphere_tests", "plane_tests", "triangle_tests",
-         "sphere_crossings", "ball_crossings", "sphere_hits", "plane_hits", "triangle_hits", "bending_hits", "lit", "highlights"]
+         "sphere_crossings", "ball_crossings", "sphere_hits", "plane_hits", "triangle_hits", "bending_hits", "lit", "highlights",
+         "row_checks", "rays_among_triangles", "shadow_rays_among_triangles", "box_tests", "tree_rays", "tree_shadow_rays",
+         "added_samples", "compared_pixels", "compared_rays", "cutoff_hits"]
 MADE_UP = 12
-# As `depths` draws.
+# Scenes with a tree -> arguments of `scanray generate`.
+LARGE = {"gem": ("icosphere", 80), "ball": ("icosphere", 320), "boulder": ("icosphere", 980), "swarm": ("spheres", 60),
+         "flock": ("spheres", 150), "crowd": ("spheres", 300)}
+# A quarter of the pictures whose costs are published: a pixel takes about as much, and there are many to draw.
 SIZE = (80, 60)
 PIXELS = SIZE[0] * SIZE[1]
-TIMEOUT = 1200
+
+
+def setting(**changed):
+    """As `scanray report` names it; what is not named is the default."""
+    default = {"max_depth": "5", "cutoff": "0", "sampling": "1 sample", "power": "squaring", "preview": "full",
+               "color": "rgb888", "dither": "false"}
+    return default | changed
+
+
+# Such as `scanray tune` recommends.
+RECOMMENDED = [setting(sampling="4 samples", max_depth="3"), setting(sampling="adaptive 1/8", cutoff="1/256"),
+               setting(color="rgb565", dither="true", max_depth="2")]
+SETTINGS = [setting(max_depth="0"), setting(max_depth="2"), setting(), setting(max_depth="8"),
+            setting(cutoff="1/256", max_depth="8"), setting(cutoff="1/64"), *RECOMMENDED]
 # How far off a prediction may be.
 TOLERANCE = 0.10
 
@@ -71,7 +90,7 @@ def made_up(number):
     return "\n".join(" ".join(str(value) for value in line) for line in lines) + "\n"
 
 
-def all_scenes(folder):
+def all_scenes(program, folder):
     """Scene name -> path."""
     found = {name: os.path.join(FIRMWARE, path) for name, path in scenes().items()}
     for number in range(MADE_UP):
@@ -79,19 +98,16 @@ def all_scenes(folder):
         with open(path, "w", encoding="utf-8") as file:
             file.write(made_up(number))
         found[f"made up {number}"] = path
+    for name, (kind, count) in LARGE.items():
+        found[name] = generate(program, folder, name, kind, count)
     return found
 
 
-def measure(builder, board, name, path):
-    """Maximum depth -> instructions a pixel."""
-    image = builder.image(board, "depths", f"depths-{name}".replace(" ", "-"), proven=False, SCANRAY_SCENE=path)
-    code, printed = emulate.run(image, TIMEOUT)
-    if code != 0:
-        raise Failed(f"{name} on {board}: ended with {code}; the board printed: {printed}")
-    lines = [line.split() for line in printed.splitlines()]
-    depths = [int(value) for key, value in lines if key == "depth"]
-    ticks = [int(value, 16) for key, value in lines if key == "ticks"]
-    return {depth: count * BOARDS[board][2] / PIXELS for depth, count in zip(depths, ticks)}
+def generate(program, folder, name, kind, count):
+    """The path of a large scene."""
+    path = os.path.join(os.path.abspath(folder), f"{name}.txt")
+    subprocess.run([program, "generate", kind, "--count", str(count), "-o", path], check=True, capture_output=True)
+    return path
 
 
 def host_program():
@@ -103,11 +119,16 @@ def host_program():
     return os.path.join(json.loads(metadata)["target_directory"], "release", "scanray")
 
 
-def figures(program, path, size, depth=None):
-    """What the host prints of a picture, without keeping it."""
+def figures(program, path, size, of=None):
+    """What the host prints of a picture with a setting, without keeping it."""
     words = [program, "render", path, "--size", f"{size[0]}x{size[1]}", "--json", "-o", os.devnull]
-    done = subprocess.run(words + (["--max-depth", str(depth)] if depth is not None else []), cwd=FIRMWARE,
-                          check=True, capture_output=True, text=True)
+    if of is not None:
+        words += ["--max-depth", of["max_depth"]]
+        kind, *threshold = of["sampling"].split()
+        words += ["--adaptive", *threshold] if kind == "adaptive" else ["--samples", kind]
+        if of["cutoff"] != "0":
+            words += ["--cutoff", of["cutoff"]]
+    done = subprocess.run(words, cwd=FIRMWARE, check=True, capture_output=True, text=True)
     return json.loads(done.stdout)
 
 
@@ -119,22 +140,35 @@ def compare(predicted, counted):
     return off
 
 
-Picture = collections.namedtuple("Picture", "scene depth counts instructions")
+Picture = collections.namedtuple("Picture", "scene setting counts instructions")
 
 
-def fit(pictures):
+def fit(pictures, refinements=6):
     """Instructions of each term."""
+    weights = [1.0] * len(pictures)
+    found = least_squares(pictures, weights)
+    for _ in range(refinements):
+        # What is far off weighs more, so that the largest error shrinks.
+        errors = [abs(error(found, picture)) + 0.02 for picture in pictures]
+        mean = sum(errors) / len(errors)
+        weights = [0.5 * weight + 0.5 * (e / mean) ** 2 for weight, e in zip(weights, errors)]
+        found = least_squares(pictures, weights)
+    return found
+
+
+def least_squares(pictures, weights):
     rows = [[count / picture.instructions for count in picture.counts] for picture in pictures]
     span = range(len(TERMS))
-    products = [[sum(row[i] * row[j] for row in rows) for j in span] for i in span]
-    sums = [sum(row[i] for row in rows) for i in span]
+    products = [[sum(w * row[i] * row[j] for w, row in zip(weights, rows)) for j in span] for i in span]
+    sums = [sum(w * row[i] for w, row in zip(weights, rows)) for i in span]
     # Coordinate descent finds the least squares with no coefficient below 0.
     found = [0.0] * len(TERMS)
-    for _ in range(20_000):
+    for _ in range(1000):
         for i in span:
-            if products[i][i] > 0:
-                rest = sum(products[i][j] * found[j] for j in span) - products[i][i] * found[i]
-                found[i] = max(0.0, (sums[i] - rest) / products[i][i])
+            line = products[i]
+            if line[i] > 0:
+                rest = sum(map(operator.mul, line, found)) - line[i] * found[i]
+                found[i] = max(0.0, (sums[i] - rest) / line[i])
     return found
 
 
@@ -147,43 +181,76 @@ def worst(coefficients, pictures):
     return max((error(coefficients, picture) for picture in pictures), key=abs)
 
 
+def count_all(builder, known):
+    """[scene's name, index of the setting, core, instructions a pixel]."""
+    names = list(known)
+    found = []
+    for scene, index, core, instructions in settings.all_counts(builder, SIZE, CORES, list(known.values()), SETTINGS):
+        if isinstance(instructions, Exception):
+            # A scene may be too large for a board.
+            print(f"not counted: {names[scene]} on {core}: {str(instructions).strip().splitlines()[-1]}", flush=True)
+        else:
+            found.append([names[scene], index, core, instructions])
+    return found
+
+
+def report(core, pictures):
+    """Prints how far a model is off, and gives its coefficients and whether that is near enough."""
+    coefficients = fit(pictures)
+    print(f"{core}: largest error of the model, and of one that is fitted without the scene")
+    for name in dict.fromkeys(picture.scene for picture in pictures):
+        its = [picture for picture in pictures if picture.scene == name]
+        without = fit([picture for picture in pictures if picture.scene != name], 0)
+        print(f"  {name:28}{100 * worst(coefficients, its):+8.1f} %{100 * worst(without, its):+8.1f} %", flush=True)
+    print(f"{core}: largest error by setting")
+    for index, of in enumerate(SETTINGS):
+        its = [picture for picture in pictures if picture.setting == index]
+        if not its:
+            continue
+        name = ", ".join(f"{key} {value}" for key, value in of.items() if setting()[key] != value) or "default"
+        print(f"  {name:44}{100 * worst(coefficients, its):+8.1f} %", flush=True)
+    return coefficients, abs(worst(coefficients, pictures)) <= TOLERANCE
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--dry-run", action="store_true", help="print, but do not write the coefficients")
+    parser.add_argument("--counted", metavar="FILE", help="what the boards counted: read if it is there, else written")
     arguments = parser.parse_args()
     program = host_program()
     with tempfile.TemporaryDirectory() as folder:
-        known = all_scenes(folder)
-        builder = Builder(folder)
-        jobs = [(board, name) for board in reversed(CORES) for name in known]
-        with concurrent.futures.ThreadPoolExecutor(max_workers=2) as workers:
-            measured = dict(zip(jobs, workers.map(lambda job: measure(builder, *job, known[job[1]]), jobs)))
-        counts = {}
-        for name, path in known.items():
-            for depth in measured[CORES[0], name]:
-                work = figures(program, path, SIZE, depth)["work"]
-                counts[name, depth] = [work[term] / PIXELS for term in TERMS]
+        known = all_scenes(program, folder)
+        if arguments.counted and os.path.exists(arguments.counted):
+            with open(arguments.counted, encoding="utf-8") as file:
+                counted = json.load(file)
+        else:
+            counted = count_all(Builder(folder), known)
+            if arguments.counted:
+                with open(arguments.counted, "w", encoding="utf-8") as file:
+                    json.dump(counted, file)
+        works = {}
+        for name, index in sorted({(name, index) for name, index, _, _ in counted}):
+            work = figures(program, known[name], SIZE, SETTINGS[index])["work"]
+            works[name, index] = [work[term] / PIXELS for term in TERMS]
 
-    columns = {}
-    for board in CORES:
-        pictures = [Picture(name, depth, counts[name, depth], instructions)
-                    for name in known for depth, instructions in measured[board, name].items()]
-        coefficients = columns[board] = fit(pictures)
-        print(f"{BOARDS[board][1]}: largest error of the model, and of one that is fitted without the scene")
-        for name in known:
-            its = [picture for picture in pictures if picture.scene == name]
-            without = fit([picture for picture in pictures if picture.scene != name])
-            print(f"  {name:28}{100 * worst(coefficients, its):+8.1f} %{100 * worst(without, its):+8.1f} %", flush=True)
+    columns, is_near = {}, True
+    for core in CORES:
+        pictures = [Picture(name, index, works[name, index], instructions)
+                    for name, index, counted_on, instructions in sorted(counted) if counted_on == core]
+        columns[core], core_is_near = report(core, pictures)
+        is_near &= core_is_near
 
     lines = ["# Instructions for each thing that the tracer does, by core: the coefficients of the instruction model.",
              f"# Written by firmware/tools/instruction_model.py with {compiler()}.",
-             f"{'term':18}" + "".join(f"{BOARDS[board][1]:>10}" for board in CORES)]
+             f"{'term':28}" + "".join(f"{core:>10}" for core in CORES)]
     for index, term in enumerate(TERMS):
-        lines.append(f"{term:18}" + "".join(f"{columns[board][index]:10.1f}" for board in CORES))
+        lines.append(f"{term:28}" + "".join(f"{columns[core][index]:10.1f}" for core in CORES))
     print("\n".join(lines))
     if not arguments.dry_run:
         with open(TABLE, "w", encoding="utf-8") as file:
             file.write("\n".join(lines) + "\n")
+    if not is_near:
+        raise Failed(f"the model is off by more than {TOLERANCE:.0%}")
 
 
 if __name__ == "__main__":

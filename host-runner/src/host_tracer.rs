@@ -7,7 +7,7 @@ use scanray::{
     Tracer, differ,
 };
 
-use crate::cost::Work;
+use crate::cost::{Circumstances, Work};
 use crate::drawing::Workers;
 use crate::failure::Failure;
 use crate::knobs::Knobs;
@@ -188,13 +188,26 @@ impl<'a, T: Scalar> HostTracer<'a, T> {
     pub(crate) fn count_work(&self, rows: Range<u16>, workers: &Workers) -> Work {
         let width = self.resolution().width;
         let progress = Progress::new("Counting rays".to_owned(), rows.len() as u64);
-        Work::count(width, rows, workers, |y, counter| {
+        let block = self.knobs.detail.block();
+        let traced = rows.clone().filter(|y| y % block == 0).count();
+        let samples = self.knobs.samples.pattern().len();
+        let is_adaptive = self.knobs.edges.is_some();
+        // `Adaptive` has three more, for the centres.
+        let each = samples + if is_adaptive { 3 } else { 0 };
+        let circumstances = Circumstances {
+            has_cutoff: self.cut.is_some(),
+            samples: samples as u64,
+            is_adaptive,
+            ..Circumstances::of(self.tracer.scene(), (traced * each) as u64)
+        };
+        let work = Work::count(width, rows, workers, |y, counter| {
             let scanline = self.scanline(y);
             for x in 0..width {
                 self.observe(&scanline, x, counter);
             }
             progress.advance(1);
-        })
+        });
+        work.under(&circumstances)
     }
 }
 

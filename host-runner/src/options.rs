@@ -190,6 +190,11 @@ pub(crate) enum ColorName {
 }
 
 impl ColorName {
+    /// Whether it has no colours.
+    pub(crate) fn is_grey(self) -> bool {
+        matches!(self, Self::Gray8 | Self::Gray4 | Self::Gray2 | Self::Binary)
+    }
+
     /// Levels of the finest channel.
     pub(crate) fn levels(self) -> u16 {
         match self {

@@ -34,6 +34,11 @@ impl Progress {
         }
     }
 
+    /// There are more steps than were known at first.
+    pub(crate) fn expect(&self, more: u64) {
+        self.bar.inc_length(more);
+    }
+
     /// Counts steps that are done.
     pub(crate) fn advance(&self, steps: u64) {
         self.bar.inc(steps);

@@ -106,10 +106,8 @@ impl RenderReport {
             total: work.tests(),
         };
         self.work = Counts(*work);
-        self.predicted_instructions_per_pixel = (self.scalar == f32::NAME)
-            .then(|| MODEL.instructions_per_pixel(work))
-            .flatten()
-            .map(Instructions);
+        self.predicted_instructions_per_pixel =
+            (self.scalar == f32::NAME).then(|| Instructions(MODEL.instructions_per_pixel(work)));
     }
 
     /// Writes a line of JSON.

@@ -8,12 +8,13 @@ use clap::{Args, ValueEnum};
 use scanray::Resolution;
 
 use crate::console::say;
+use crate::cost::{Core, Counted, Emulator, Job};
 use crate::drawing::Workers;
 use crate::failure::Failure;
 use crate::options::{Size, whole};
 use crate::output::Place;
 use crate::progress::Progress;
-use crate::report::{self, BothScalars, Document, Sweep};
+use crate::report::{self, BothScalars, Document, Emulation, SceneReport, Sweep};
 use crate::scene_file::SceneSource;
 
 /// The command line.
@@ -22,10 +23,11 @@ use crate::scene_file::SceneSource;
 Examples:
   scanray report scene.txt --size 96x64 -o small     small/index.html and other forms
   scanray report scene.txt --size 96x64 --only csv   the figures alone, as report/report.csv
+  scanray report scene.txt --size 24x16 --emulate    instructions counted on emulated boards
 
 Several scenes become one report: scanray report scenes/*.txt. The page needs no network. Errors are measured against \
-the scene in f64 and with 256 samples a pixel; instructions are predicted for Cortex-M4F, M3 and M0. How each figure comes \
-about is told at the end of the page.")]
+the scene in f64 and with 256 samples a pixel; instructions are predicted for Cortex-M4F, M3 and M0, or counted with --emulate. How \
+each figure comes about is told at the end of the page.")]
 pub(crate) struct ReportArgs {
     /// Scene files, `-` for standard input; the default scene if there are none
     #[arg(value_name = "SCENE")]
@@ -38,6 +40,19 @@ pub(crate) struct ReportArgs {
     /// Width and height in pixels
     #[arg(long, value_name = "WxH", default_value = "160x120")]
     size: Size,
+
+    /// Count instructions under emulation, of all cores or of these, instead of predicting them: takes minutes for
+    /// each scene, QEMU and a checkout of scanray
+    #[arg(
+        long,
+        value_name = "CORE",
+        value_delimiter = ',',
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "m4f,m3,m0",
+        ignore_case = true
+    )]
+    emulate: Vec<Core>,
 
     /// Write only these
     #[arg(long, value_name = "KIND", value_delimiter = ',', default_values_t = Kind::ALL)]
@@ -71,47 +86,162 @@ impl std::fmt::Display for Kind {
     }
 }
 
+/// A scene of the command line.
+struct Named {
+    source: SceneSource,
+    text: Vec<u8>,
+    /// No other scene of the report has it, nor one that leads to the same names of files.
+    name: String,
+}
+
 /// Measures and writes.
 ///
 /// # Errors
 ///
 /// [`Failure`]; nothing is written then.
 pub(crate) fn run(args: &ReportArgs) -> Result<ExitCode, Failure> {
-    let scenes = SceneSource::list(&args.scenes);
+    let scenes = named(SceneSource::list(&args.scenes))?;
     let Size(resolution) = args.size;
+    // Whatever is wrong with a scene is told before the first is measured.
+    for Named { source, text, .. } in &scenes {
+        source.check::<f32>(text)?;
+        source.check::<f64>(text)?;
+    }
+    Sweep::check(resolution)?;
     let folder = &args.output;
+    let is_new = !folder.exists();
     fs::create_dir_all(folder).map_err(|error| Failure::file("make the folder", folder, error))?;
+    let emulator = (!args.emulate.is_empty()).then(Emulator::find);
+    if let Some(Err(why)) = &emulator {
+        say(format_args!(
+            "warning: instructions are predicted, not counted: {why}"
+        ));
+    }
+    let written = measure_all(&scenes, resolution, args, emulator)
+        .and_then(|document| write(&document, folder, &args.only));
+    if written.is_err() && is_new {
+        // It is empty, unless somebody else put something there.
+        let _ = fs::remove_dir(folder);
+    }
+    written.map(|()| ExitCode::SUCCESS)
+}
+
+/// Reads the scenes and gives each a name of its own: the file's, with folders where that is not enough.
+fn named(sources: Vec<SceneSource>) -> Result<Vec<Named>, Failure> {
+    let stem = |source: &SceneSource| source.stem().display().to_string();
+    let names: Vec<String> = sources
+        .iter()
+        .map(|source| {
+            let same =
+                |other: &&SceneSource| report::slug(&stem(other)) == report::slug(&stem(source));
+            if sources.iter().filter(same).count() == 1 {
+                stem(source)
+            } else {
+                source.name()
+            }
+        })
+        .collect();
+    let mut found: Vec<Named> = Vec::new();
+    for (source, name) in sources.into_iter().zip(names) {
+        let is_taken = |name: &String| {
+            let slug = report::slug(name);
+            found.iter().any(|other| report::slug(&other.name) == slug)
+        };
+        let mut numbered = (2..).map(|number: u32| format!("{name} {number}"));
+        let own = Some(name.clone()).into_iter().chain(&mut numbered);
+        let name = own
+            .into_iter()
+            .find(|name| !is_taken(name))
+            .unwrap_or(name.clone());
+        found.push(Named {
+            text: source.read()?,
+            source,
+            name,
+        });
+    }
+    Ok(found)
+}
+
+fn measure_all(
+    scenes: &[Named],
+    resolution: Resolution,
+    args: &ReportArgs,
+    emulator: Option<Result<Emulator, String>>,
+) -> Result<Document, Failure> {
     let workers = Workers::new(args.threads)?;
     let steps = scenes.len() as u64 * (Sweep::steps() + 1);
     let progress = Progress::new("Measuring".to_owned(), steps);
-    let reports = scenes
-        .iter()
-        .map(|scene| measure(scene, &scenes, resolution, &workers, &progress))
-        .collect::<Result<Vec<_>, _>>()?;
+    let mut reports = Vec::new();
+    for Named { source, text, name } in scenes {
+        let scene = BothScalars::load_text(source, text)?;
+        let sweep = Sweep::new(&scene, resolution, &workers)?;
+        progress.advance(1);
+        reports.push(sweep.run(name.clone(), &progress)?);
+    }
     drop(progress);
-    write(&Document::new(reports), folder, &args.only)?;
-    Ok(ExitCode::SUCCESS)
+    let emulation = match emulator {
+        None => Emulation::NotAsked,
+        Some(Err(why)) => Emulation::Missing(why),
+        Some(Ok(emulator)) => count(&emulator, &args.emulate, scenes, &mut reports)?,
+    };
+    Ok(Document::new(emulation, reports))
 }
 
-fn measure(
-    source: &SceneSource,
-    all: &[SceneSource],
-    resolution: Resolution,
-    workers: &Workers,
-    progress: &Progress,
-) -> Result<report::SceneReport, Failure> {
-    let scene = BothScalars::load(source)?;
-    let sweep = Sweep::new(&scene, resolution, workers)?;
-    progress.advance(1);
-    // Two scenes of the same name are told apart by their folders.
-    let stem = source.stem().display().to_string();
-    let is_alone = all
-        .iter()
-        .filter(|other| other.stem() == source.stem())
-        .count()
-        == 1;
-    let name = if is_alone { stem } else { source.name() };
-    sweep.run(name, progress)
+/// Enters what is counted under emulation.
+fn count(
+    emulator: &Emulator,
+    cores: &[Core],
+    scenes: &[Named],
+    reports: &mut [SceneReport],
+) -> Result<Emulation, Failure> {
+    let mut failures = Vec::new();
+    let all = || reports.iter().flat_map(|report| &report.configurations);
+    let total = all().filter(|c| c.settings.is_for_devices()).count() * cores.len();
+    let progress = Progress::new("Counting under emulation".to_owned(), total as u64);
+    for (Named { text, name, .. }, report) in scenes.iter().zip(reports) {
+        let indices: Vec<usize> = (0..report.configurations.len())
+            .filter(|index| report.configurations[*index].settings.is_for_devices())
+            .collect();
+        let settings: Vec<_> = indices
+            .iter()
+            .map(|index| report.configurations[*index].settings)
+            .collect();
+        let job = Job {
+            size: [report.size.width, report.size.height],
+            cores: cores.iter().map(|core| core.name()).collect(),
+            scenes: &[String::from_utf8_lossy(text).into_owned()],
+            settings: &settings,
+        };
+        let configurations = &mut report.configurations;
+        emulator.count(
+            &job,
+            |Counted {
+                 setting,
+                 core,
+                 instructions,
+                 ..
+             }| {
+                progress.advance(1);
+                let Some(configuration) = indices
+                    .get(setting)
+                    .and_then(|index| configurations.get_mut(*index))
+                else {
+                    return;
+                };
+                match instructions {
+                    Ok(count) => configuration.counted[core as usize] = Some(count),
+                    Err(why) => {
+                        let why = why.lines().next_back().unwrap_or_default();
+                        failures.push(format!("{name}, {} on {core}: {why}", configuration.name));
+                    }
+                }
+            },
+        )?;
+    }
+    Ok(Emulation::Counted {
+        cores: cores.to_vec(),
+        failures,
+    })
 }
 
 fn write(document: &Document, folder: &Path, kinds: &[Kind]) -> Result<(), Failure> {

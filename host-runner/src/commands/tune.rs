@@ -27,8 +27,11 @@ Examples:
 
 Tries maximum depths, cut-offs and ways of sampling, and names the setting with the least error whose time is within the \
 budget at the upper end of its range. Instructions are predicted by a model within about ten per cent; milliseconds are an \
-estimate from the cores' manuals. Errors are those of what the display shows, in levels of 255, against the scene in f64 with \
-256 samples a pixel.")]
+estimate from the cores' manuals. Errors are those of what the display shows against the scene in f64 with 256 samples a pixel: \
+the root of the mean square in levels of 255; with --dither FLIP, 0 to 1, because the mean square punishes the pattern that the \
+eye averages. Displays of greys are compared with greys.
+
+Exit codes: 1 nothing fits.")]
 pub(crate) struct TuneArgs {
     /// Scene file, `-` for standard input; the default scene if there is none
     #[arg(value_name = "SCENE")]
@@ -169,6 +172,7 @@ pub(crate) fn run(args: &TuneArgs) -> Result<ExitCode, Failure> {
         target: args.target,
         clock_hz: budget.clock,
         budget_ms: 1e3 * budget.seconds,
+        error_measure: if args.dither { "flip" } else { "rmse" },
         wait_states: args.wait_states,
         tuned,
     };
@@ -194,6 +198,7 @@ struct Answer {
     target: Core,
     clock_hz: f64,
     budget_ms: f64,
+    error_measure: &'static str,
     wait_states: u32,
     #[serde(flatten)]
     tuned: Tuned,
@@ -246,7 +251,12 @@ impl Answer {
         writeln!(
             out,
             "{tried} settings were tried. Instructions are predicted by a model, milliseconds are an estimate; the upper end counts.\n\
-             Error: root of the mean square, in levels of 255, against f64 with 256 samples a pixel."
+             Error: {}, against f64 with 256 samples a pixel.",
+            if args.dither {
+                "FLIP, 0 to 1"
+            } else {
+                "root of the mean square, in levels of 255"
+            }
         )
     }
 }
@@ -256,7 +266,7 @@ fn line(out: &mut dyn Write, what: &str, choice: &Choice) -> io::Result<()> {
         settings,
         instructions,
         milliseconds,
-        rmse,
+        error,
     } = choice;
     writeln!(
         out,
@@ -267,7 +277,7 @@ fn line(out: &mut dyn Write, what: &str, choice: &Choice) -> io::Result<()> {
             None => "no cut-off".to_owned(),
         },
         settings.sampling,
-        rounded(*rmse),
+        rounded(*error),
         rounded(instructions / 1e6),
         rounded(milliseconds.least),
         rounded(milliseconds.most)

@@ -17,7 +17,7 @@ use embedded_graphics_simulator::{
 use scanray::{Picture, Quantizer, Resolution, Scene};
 
 use crate::console::{print, say};
-use crate::cost::{Core, MODEL, no_prediction};
+use crate::cost::{Core, MODEL};
 use crate::displays;
 use crate::drawing::Workers;
 use crate::failure::Failure;
@@ -209,13 +209,11 @@ impl WindowArgs {
         let workers = Workers::new(None)?;
         let time = |y: u16| {
             let work = tracer.count_work(y..y + 1, &workers);
-            let instructions = MODEL
-                .instructions_per_pixel(&work)
-                .ok_or_else(no_prediction)?;
+            let instructions = MODEL.instructions_per_pixel(&work);
             let cycles = width * instructions[core as usize];
-            Ok(Duration::from_secs_f64((cycles / (clock * 1e6)).max(0.0)).min(LONGEST_ROW))
+            Duration::from_secs_f64((cycles / (clock * 1e6)).max(0.0)).min(LONGEST_ROW)
         };
-        (0..resolution.height).map(time).collect()
+        Ok((0..resolution.height).map(time).collect())
     }
 }
 

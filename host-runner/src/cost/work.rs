@@ -3,40 +3,117 @@
 use std::ops::{Add, Range};
 
 use rayon::prelude::*;
-use scanray::{LightAtHit, Meeting, Object, Observer, Ray, RayKind, Scalar, TestKind, Vec3};
+use scanray::{LightAtHit, Meeting, Object, Observer, Ray, RayKind, Scalar, Scene, TestKind, Vec3};
 
 use crate::drawing::Workers;
 
-/// What the tracer does, counted: what a picture's cost is made of.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Work {
-    pub(crate) pixels: u64,
+macro_rules! work {
+    ($($(#[$doc:meta])* $name:ident,)*) => {
+        /// What the tracer does, counted: what a picture's cost is made of.
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        pub(crate) struct Work {
+            $($(#[$doc])* pub(crate) $name: u64,)*
+        }
+
+        impl Work {
+            /// Everything that is counted, by its name.
+            pub(crate) fn counts(&self) -> Vec<(&'static str, u64)> {
+                vec![$((stringify!($name), self.$name)),*]
+            }
+        }
+
+        impl Add for Work {
+            type Output = Self;
+
+            fn add(self, other: Self) -> Self {
+                Self { $($name: self.$name + other.$name,)* }
+            }
+        }
+    };
+}
+
+work! {
+    /// Pixels of the picture, whether traced or repeated in a block.
+    pixels,
     /// Rays from the camera.
-    pub(crate) primary_rays: u64,
+    primary_rays,
     /// Mirror rays.
-    pub(crate) reflected_rays: u64,
-    pub(crate) refracted_rays: u64,
+    reflected_rays,
+    /// Rays that pass a surface.
+    refracted_rays,
     /// Rays towards lights.
-    pub(crate) shadow_rays: u64,
-    pub(crate) sphere_tests: u64,
-    pub(crate) plane_tests: u64,
-    pub(crate) triangle_tests: u64,
+    shadow_rays,
+    /// Tests of a ray against a sphere.
+    sphere_tests,
+    /// Tests against a plane.
+    plane_tests,
+    /// Tests against a triangle.
+    triangle_tests,
     /// Tests against the boxes of the tree of a large scene.
-    pub(crate) box_tests: u64,
+    box_tests,
     /// Tests against spheres that the ray's line crosses: they take a root.
-    pub(crate) sphere_crossings: u64,
+    sphere_crossings,
     /// Tests against triangles whose bounding ball the ray's line crosses: they take the exact test.
-    pub(crate) ball_crossings: u64,
+    ball_crossings,
     /// Rays that meet a sphere first, shadow rays left out.
-    pub(crate) sphere_hits: u64,
-    pub(crate) plane_hits: u64,
-    pub(crate) triangle_hits: u64,
+    sphere_hits,
+    /// The same for planes.
+    plane_hits,
+    /// The same for triangles.
+    triangle_hits,
     /// Of these, those on materials that bend rays.
-    pub(crate) bending_hits: u64,
+    bending_hits,
     /// Lights that reach a hit.
-    pub(crate) lit: u64,
+    lit,
     /// Lights that show a highlight.
-    pub(crate) highlights: u64,
+    highlights,
+    /// Objects that are looked at for a row of samples: whether its rays can meet them.
+    row_checks,
+    /// Rays, shadow rays left out, of a scene with triangles: they pass a loop more, and code that is larger.
+    rays_among_triangles,
+    /// Shadow rays of such a scene.
+    shadow_rays_among_triangles,
+    /// Rays, shadow rays left out, that walk a tree.
+    tree_rays,
+    /// Shadow rays that walk a tree.
+    tree_shadow_rays,
+    /// Samples that are added up.
+    added_samples,
+    /// Pixels that are compared with their neighbours.
+    compared_pixels,
+    /// Rays, shadow rays left out, of pictures whose pixels are compared: the tracer is called from two places.
+    compared_rays,
+    /// Hits of pictures with a cut-off: whether their secondary rays show is looked at.
+    cutoff_hits,
+}
+
+/// What a picture's work does not tell by itself.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Circumstances {
+    /// Rows of samples that were begun.
+    pub(crate) scanlines: u64,
+    /// Objects of the scene.
+    pub(crate) objects: u64,
+    pub(crate) has_triangles: bool,
+    pub(crate) has_cutoff: bool,
+    /// Samples a pixel, or those of the pixels that differ from a neighbour.
+    pub(crate) samples: u64,
+    /// Whether pixels are compared with their neighbours.
+    pub(crate) is_adaptive: bool,
+}
+
+impl Circumstances {
+    /// Of a picture of a scene, begun by as many rows of samples.
+    pub(crate) fn of<T: Scalar>(scene: &Scene<'_, T>, scanlines: u64) -> Self {
+        Self {
+            scanlines,
+            objects: scene.object_count() as u64,
+            has_triangles: !scene.triangles.is_empty(),
+            has_cutoff: false,
+            samples: 1,
+            is_adaptive: false,
+        }
+    }
 }
 
 impl Work {
@@ -59,33 +136,38 @@ impl Work {
         })
     }
 
-    /// Everything that is counted, by its name.
-    pub(crate) fn counts(&self) -> [(&'static str, u64); 17] {
-        [
-            ("pixels", self.pixels),
-            ("primary_rays", self.primary_rays),
-            ("reflected_rays", self.reflected_rays),
-            ("refracted_rays", self.refracted_rays),
-            ("shadow_rays", self.shadow_rays),
-            ("sphere_tests", self.sphere_tests),
-            ("plane_tests", self.plane_tests),
-            ("triangle_tests", self.triangle_tests),
-            ("box_tests", self.box_tests),
-            ("sphere_crossings", self.sphere_crossings),
-            ("ball_crossings", self.ball_crossings),
-            ("sphere_hits", self.sphere_hits),
-            ("plane_hits", self.plane_hits),
-            ("triangle_hits", self.triangle_hits),
-            ("bending_hits", self.bending_hits),
-            ("lit", self.lit),
-            ("highlights", self.highlights),
-        ]
-    }
-
     /// One of [`Work::counts`].
     pub(crate) fn count_of(&self, name: &str) -> Option<u64> {
         let counts = self.counts();
         counts.iter().find(|(n, _)| *n == name).map(|(_, c)| *c)
+    }
+
+    /// The same, with what follows from the circumstances.
+    pub(crate) fn under(self, circumstances: &Circumstances) -> Self {
+        let Circumstances {
+            scanlines,
+            objects,
+            has_triangles,
+            has_cutoff,
+            samples,
+            is_adaptive,
+        } = *circumstances;
+        let rays = self.primary_rays + self.reflected_rays + self.refracted_rays;
+        let hits = self.sphere_hits + self.plane_hits + self.triangle_hits;
+        let has_tree = self.box_tests > 0;
+        let if_so = |so: bool, count: u64| if so { count } else { 0 };
+        Self {
+            row_checks: scanlines * objects,
+            rays_among_triangles: if_so(has_triangles && !has_tree, rays),
+            shadow_rays_among_triangles: if_so(has_triangles && !has_tree, self.shadow_rays),
+            tree_rays: if_so(has_tree, rays),
+            tree_shadow_rays: if_so(has_tree, self.shadow_rays),
+            added_samples: if_so(samples > 1, self.primary_rays),
+            compared_pixels: if_so(is_adaptive, self.pixels),
+            compared_rays: if_so(is_adaptive, rays),
+            cutoff_hits: if_so(has_cutoff, hits),
+            ..self
+        }
     }
 
     /// Rays of all kinds.
@@ -96,32 +178,6 @@ impl Work {
     /// Tests of all kinds.
     pub(crate) fn tests(&self) -> u64 {
         self.sphere_tests + self.plane_tests + self.triangle_tests + self.box_tests
-    }
-}
-
-impl Add for Work {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        Self {
-            pixels: self.pixels + other.pixels,
-            primary_rays: self.primary_rays + other.primary_rays,
-            reflected_rays: self.reflected_rays + other.reflected_rays,
-            refracted_rays: self.refracted_rays + other.refracted_rays,
-            shadow_rays: self.shadow_rays + other.shadow_rays,
-            sphere_tests: self.sphere_tests + other.sphere_tests,
-            plane_tests: self.plane_tests + other.plane_tests,
-            triangle_tests: self.triangle_tests + other.triangle_tests,
-            box_tests: self.box_tests + other.box_tests,
-            sphere_crossings: self.sphere_crossings + other.sphere_crossings,
-            ball_crossings: self.ball_crossings + other.ball_crossings,
-            sphere_hits: self.sphere_hits + other.sphere_hits,
-            plane_hits: self.plane_hits + other.plane_hits,
-            triangle_hits: self.triangle_hits + other.triangle_hits,
-            bending_hits: self.bending_hits + other.bending_hits,
-            lit: self.lit + other.lit,
-            highlights: self.highlights + other.highlights,
-        }
     }
 }
 

@@ -6,6 +6,7 @@ use serde::{Serialize, Serializer};
 use super::errors::Errors;
 use super::references::{DEPTH, LeftOut, SAMPLES};
 use super::settings::Settings;
+use super::sweep::judge;
 use super::timing::HostTime;
 use crate::cost::{Core, Work};
 use crate::image::Image;
@@ -16,13 +17,43 @@ pub(crate) struct Document {
     pub(crate) version: &'static str,
     pub(crate) reference_depth: usize,
     pub(crate) reference_samples: u32,
+    pub(crate) emulation: Emulation,
     pub(crate) scenes: Vec<SceneReport>,
+}
+
+/// Where the instructions come from.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Emulation {
+    /// From the model: nobody asked for more.
+    NotAsked,
+    /// From the model, because something is missing for the emulator.
+    Missing(String),
+    /// Counted under emulation on these cores, but for what failed, which is the model's.
+    Counted {
+        cores: Vec<Core>,
+        failures: Vec<String>,
+    },
+}
+
+impl Emulation {
+    /// Where a core's instructions come from, in a word.
+    pub(crate) fn word(&self, core: Core) -> &'static str {
+        match self {
+            Self::Counted { cores, .. } if cores.contains(&core) => "emulated",
+            _ => "model",
+        }
+    }
 }
 
 impl Document {
     /// A report on scenes.
-    pub(crate) fn new(scenes: Vec<SceneReport>) -> Self {
+    pub(crate) fn new(emulation: Emulation, mut scenes: Vec<SceneReport>) -> Self {
+        for scene in &mut scenes {
+            judge(&mut scene.configurations);
+        }
         Self {
+            emulation,
             version: env!("CARGO_PKG_VERSION"),
             reference_depth: DEPTH,
             reference_samples: SAMPLES,
@@ -35,6 +66,8 @@ impl Document {
 #[derive(Debug, Serialize)]
 pub(crate) struct SceneReport {
     pub(crate) name: String,
+    /// The name as a part of the names of files and anchors, which no other scene of the report has.
+    pub(crate) slug: String,
     #[serde(serialize_with = "serialize_size")]
     pub(crate) size: Resolution,
     /// By how much R1 may lack light.
@@ -50,6 +83,8 @@ pub(crate) struct SceneReport {
 #[derive(Debug, Serialize)]
 pub(crate) struct Line {
     pub(crate) knob: &'static str,
+    /// The core that it is about, if it is about one.
+    pub(crate) core: Option<Core>,
     pub(crate) points: Vec<(String, usize)>,
 }
 
@@ -63,8 +98,12 @@ pub(crate) struct Configuration {
     pub(crate) flip: f64,
     pub(crate) work: PerPixel,
     pub(crate) host_time: HostTime,
-    /// By [`Core::ALL`]; none where nothing is known.
-    pub(crate) instructions: Option<[f64; 3]>,
+    /// Instructions a pixel by the model, by [`Core::ALL`]; none where nothing is known.
+    #[serde(rename = "instructions_by_model")]
+    pub(crate) predicted: Option<[f64; 3]>,
+    /// The same, counted under emulation.
+    #[serde(rename = "instructions_emulated")]
+    pub(crate) counted: [Option<f64>; 3],
     pub(crate) verdict: Verdict,
     /// What the display shows, in 8 bits a channel.
     #[serde(skip)]
@@ -84,11 +123,13 @@ pub(crate) struct PerPixel {
 pub(crate) enum Verdict {
     /// On the Pareto front of its display.
     Best,
-    /// The configuration with this index costs no more and errs no more.
+    /// The configuration with this index costs and errs as much, to 1 %.
+    EqualTo(usize),
+    /// The configuration with this index costs no more and errs no more, to 1 %.
     DominatedBy(usize),
     /// Its picture is wrong, and why.
     Failed(String),
-    /// There is no model of what it costs on a device.
+    /// No device has it.
     NotForDevices,
 }
 
@@ -113,12 +154,14 @@ impl Cost {
     ];
 
     /// What is on the axis, with its unit.
-    pub(crate) fn label(self) -> String {
+    pub(crate) fn label(self, emulation: &Emulation) -> String {
         match self {
             Self::Rays => "rays per pixel".to_owned(),
             Self::Tests => "intersection tests per pixel".to_owned(),
             Self::HostTime => "host, milliseconds per picture (wall time, median)".to_owned(),
-            Self::Instructions(core) => format!("{core}, instructions per pixel (model)"),
+            Self::Instructions(core) => {
+                format!("{core}, instructions per pixel ({})", emulation.word(core))
+            }
         }
     }
 
@@ -134,13 +177,23 @@ impl Cost {
         }
     }
 
+    /// Whether a line belongs into a plot over this cost: of those for one core the core's, or else the first's.
+    pub(crate) fn shows(self, line: &Line) -> bool {
+        let core = match self {
+            Self::Instructions(core) => core,
+            _ => Core::ALL[0],
+        };
+        line.core.is_none_or(|of| of == core)
+    }
+
     /// Of a configuration.
     pub(crate) fn of(self, configuration: &Configuration) -> Option<f64> {
         match self {
             Self::Rays => Some(configuration.work.rays),
             Self::Tests => Some(configuration.work.tests),
             Self::HostTime => Some(1e3 * configuration.host_time.median),
-            Self::Instructions(core) => configuration.instructions.map(|all| all[core as usize]),
+            Self::Instructions(core) => configuration.counted[core as usize]
+                .or_else(|| configuration.predicted.map(|all| all[core as usize])),
         }
     }
 }

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use scanray::{Color, DisplayColor, PixelSource, Quantizer, Resolution, Scalar};
 
 use crate::drawing::Workers;
+use crate::options::ColorName;
 
 /// The linear colours of a picture, row by row, each channel in 0…1.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,6 +68,17 @@ impl Linear {
             .collect();
         shown::<f64, scanray::Exact<Rgb888>>(&colors, self.resolution)
     }
+}
+
+/// The colours as a display of a kind can show them: on those without colours, their greys.
+pub(crate) fn in_greys(mut linear: Linear, display: ColorName) -> Linear {
+    if display.is_grey() {
+        for [r, g, b] in &mut linear.pixels {
+            let grey = Color::new(*r, *g, *b).luma();
+            (*r, *g, *b) = (grey, grey, grey);
+        }
+    }
+    linear
 }
 
 fn channels<T: Scalar>(color: &Color<T>) -> [f64; 3] {

@@ -2,33 +2,40 @@
 
 use std::fmt::Write as _;
 
-use super::document::{Cost, Document, Measure, SceneReport, Verdict};
+use super::document::{Cost, Document, Emulation, Measure, SceneReport, Verdict};
 use super::{method, plot, table};
 
 /// The text, and the files it shows: name and content.
 pub(crate) fn write(document: &Document) -> (String, Vec<(String, String)>) {
     let mut text = String::from("# Error against run time\n");
     let mut files = Vec::new();
+    let emulation = &document.emulation;
     for scene in &document.scenes {
         let size = scene.size;
         let _ = write!(
             text,
             "\n## {} ({}×{})\n\n",
-            scene.name, size.width, size.height
+            escaped(&scene.name),
+            size.width,
+            size.height
         );
         for (cost, measure) in [
             (Cost::ALL[0], Measure::Total),
             (Cost::ALL[0], Measure::BeforeQuantisation),
             (Cost::ALL[2], Measure::Total),
         ] {
-            if let Ok(svg) = plot::svg(scene, cost, measure) {
-                let name = format!("{}-{}-{}.svg", scene.name, cost.slug(), measure.slug());
-                let _ = writeln!(text, "![{}: {}]({name})", scene.name, cost.label());
+            if let Ok(svg) = plot::svg(scene, emulation, cost, measure) {
+                let name = format!("{}-{}-{}.svg", scene.slug, cost.slug(), measure.slug());
+                let title = format!("{}: {}", escaped(&scene.name), cost.label(emulation));
+                let _ = writeln!(text, "![{title}]({name})");
                 files.push((name, svg));
             }
         }
-        text.push_str("\nBold: on the Pareto front.\n\n");
-        write_table(&mut text, scene);
+        text.push_str(
+            "\nBold: on the Pareto front of the first plot, or equal to one that is.\n\n",
+        );
+        write_table(&mut text, scene, emulation);
+        write_list(&mut text, "Equal", &table::equal(scene));
         write_list(&mut text, "Dominated", &table::dominated(scene));
         write_list(&mut text, "Failed", &table::failed(scene));
     }
@@ -40,11 +47,21 @@ pub(crate) fn write(document: &Document) -> (String, Vec<(String, String)>) {
     (text, files)
 }
 
-fn write_table(text: &mut String, scene: &SceneReport) {
+/// A name without what Markdown takes for its own.
+fn escaped(name: &str) -> String {
+    let escape = |c: char| match c {
+        '\\' | '`' | '*' | '_' | '[' | ']' | '<' | '>' | '|' | '#' | '!' => format!("\\{c}"),
+        c if c.is_control() => " ".to_owned(),
+        c => c.to_string(),
+    };
+    name.chars().map(escape).collect()
+}
+
+fn write_table(text: &mut String, scene: &SceneReport, emulation: &Emulation) {
     let row = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
     text.push_str(&row(table::COLUMNS
         .iter()
-        .map(|c| c.heading.to_owned())
+        .map(|column| table::heading(column, emulation))
         .collect()));
     let rule = (0..table::COLUMNS.len()).map(|i| if i == 0 { "---" } else { "---:" }.to_owned());
     text.push_str(&row(rule.collect()));
@@ -54,7 +71,7 @@ fn write_table(text: &mut String, scene: &SceneReport) {
             .map(|column| (column.cell)(configuration))
             .collect();
         match configuration.verdict {
-            Verdict::Best => cells[0] = format!("**{}**", cells[0]),
+            Verdict::Best | Verdict::EqualTo(_) => cells[0] = format!("**{}**", cells[0]),
             Verdict::Failed(_) => cells[0].push_str(" (failed)"),
             _ => {}
         }

@@ -1,6 +1,6 @@
 //! How the figures of a report came about, in words.
 
-use super::document::Document;
+use super::document::{Document, Emulation};
 use super::references::{DEPTH, SAMPLES};
 
 /// A heading and what belongs to it.
@@ -42,24 +42,74 @@ pub(crate) fn paragraphs(document: &Document) -> Vec<Paragraph> {
              tests of a ray against a sphere, plane or triangle."
                 .to_owned(),
         ),
-        (
-            "Instructions",
-            "Instructions, not cycles, for each pixel on Cortex-M4F, M3 and M0, from a model: what the tracer does, counted \
-             by kind, times what each takes, which was fitted to pictures drawn under emulation \
-             (firmware/tools/instruction_model.py). The model stands for RGB888 and f32."
-                .to_owned(),
-        ),
+        ("Instructions", instructions(&document.emulation)),
         (
             "Host time",
             "Wall time of the core on one thread, one ray at a time: the median of seven runs, with the shortest and the \
-             longest. Not deterministic."
+             longest. Not deterministic; where the longest takes more than half as long again as the median, the machine was \
+             busy, and the figure is marked with a question mark."
+                .to_owned(),
+        ),
+        (
+            "Other formulas",
+            format!(
+                "Textbook: what most ray tracers do, drawn by the code that scanray's stability is measured with. Fixed offset: \
+                 the core's formulas, but new rays start {} above the surface. Both test every ray against every object; no \
+                 device has them. Their rounding is the difference to the core in f64.",
+                scanray_stability::textbook::EPSILON
+            ),
+        ),
+        (
+            "Preview",
+            "What a picture that is drawn coarse to fine shows after its first pass, of every fourth or second pixel of every \
+             fourth or second row; blocks stand for the rest. What remains to be traced afterwards is the rest, no more."
                 .to_owned(),
         ),
         (
             "Pareto front",
-            "Settings that no other on the same display matches in both instructions on the M4F and error against R2. \
-             All others are dominated: there is no reason to choose them."
+            "Settings whose error is by more than 1 % less than that of every other on the same display that costs no more. \
+             Of settings that differ by less than 1 % in both the first stands for all, and the others are equal to it; \
+             the rest is dominated: there is no reason to choose it. The tables go by instructions on the M4F and the error \
+             against R2; each plot rings the front of its own axes."
+                .to_owned(),
+        ),
+        (
+            "tune's choices",
+            "What scanray tune would choose as the budget grows, by the model: depth, cut-off and samples together, a step for \
+             each third of the error that goes."
                 .to_owned(),
         ),
     ]
+}
+
+/// How instructions come about.
+fn instructions(emulation: &Emulation) -> String {
+    const MODEL: &str = "from a model: what the tracer does, counted by kind, times what each takes, which was fitted to \
+        pictures drawn under emulation and is within 10 % of them (firmware/tools/instruction_model.py)";
+    let unit = "Instructions, not cycles, for each pixel on Cortex-M4F, M3 and M0";
+    match emulation {
+        Emulation::NotAsked => format!("{unit}, {MODEL}. --emulate counts them instead."),
+        Emulation::Missing(why) => {
+            format!("{unit}, {MODEL}. They were to be counted under emulation, but {why}.")
+        }
+        Emulation::Counted { cores, failures } => {
+            let cores = cores
+                .iter()
+                .map(|core| core.name())
+                .collect::<Vec<_>>()
+                .join(", ");
+            let failures: String = failures
+                .iter()
+                .map(|failure| format!(" Not counted, but from the model: {failure}."))
+                .collect();
+            format!(
+                "{unit}: on {cores} counted by QEMU (-icount shift=0), which gives each instruction a nanosecond of the board's time, on \
+                 mps2-an386, mps2-an385 and microbit, while pictures of the size above are drawn row by row from a baked scene \
+                 with the stages it needs, compiled for size. A program is compiled for each way of sampling, with a cut-off or \
+                 without, for each kind of display and each power routine; depth, cut-off, threshold and block size are unknown to \
+                 the compiler. Of pictures with 16 and 64 samples a pixel each fourth and 16th row was drawn \
+                 (firmware/tools/settings.py). On other cores they are {MODEL}.{failures}"
+            )
+        }
+    }
 }

@@ -23,12 +23,12 @@ mod timing;
 mod tracing;
 mod tune;
 
-pub(crate) use document::{Document, SceneReport};
+pub(crate) use document::{Document, Emulation, SceneReport};
 pub(crate) use markdown::write as write_markdown;
 pub(crate) use page::write as write_page;
 pub(crate) use plot::number;
 pub(crate) use scenes::BothScalars;
 pub(crate) use settings::{Sampling, Settings};
-pub(crate) use sweep::Sweep;
+pub(crate) use sweep::{Sweep, slug};
 pub(crate) use table::{write_csv, write_json};
 pub(crate) use tune::{Budget, Choice, Tuned, tune};

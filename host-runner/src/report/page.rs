@@ -6,7 +6,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::document::{Configuration, Cost, Document, Measure, SceneReport, Verdict};
+use super::document::{Configuration, Cost, Document, Emulation, Measure, SceneReport, Verdict};
 use super::plot::{self, number};
 use super::{method, table};
 use crate::compare::{level_legend, level_map};
@@ -21,7 +21,7 @@ pub(crate) fn write(document: &Document) -> io::Result<String> {
     let scenes = document
         .scenes
         .iter()
-        .map(scene)
+        .map(|report| scene(report, &document.emulation))
         .collect::<io::Result<Vec<_>>>()?;
     let page = html! {
         (DOCTYPE)
@@ -42,11 +42,11 @@ pub(crate) fn write(document: &Document) -> io::Result<String> {
                     p {
                         "What each setting of the renderer costs and what it buys. Each line turns one knob; points further to \
                          the left cost less, points further down are closer to the reference. Ringed points are on the Pareto \
-                         front: everything else is matched or beaten in both."
+                         front of their plot: everything else is matched or beaten in both."
                     }
                     nav {
                         @for scene in &document.scenes {
-                            a href={ "#" (anchor(&scene.name)) } { (scene.name) }
+                            a href={ "#" (anchor(scene)) } { (scene.name) }
                         }
                         a href="#method" { "method" }
                     }
@@ -71,13 +71,13 @@ pub(crate) fn write(document: &Document) -> io::Result<String> {
     Ok(page.into_string())
 }
 
-/// A scene's name as an anchor.
-fn anchor(name: &str) -> String {
-    let plain = |c: char| if c.is_ascii_alphanumeric() { c } else { '-' };
-    name.chars().map(plain).collect()
+/// No other section has it, whatever the scene's name.
+fn anchor(scene: &SceneReport) -> String {
+    format!("scene-{}", scene.slug)
 }
 
-fn scene(scene: &SceneReport) -> io::Result<Markup> {
+fn scene(scene: &SceneReport, emulation: &Emulation) -> io::Result<Markup> {
+    let diagram = |cost, measure| diagram(scene, emulation, cost, measure);
     let cards = scene
         .configurations
         .iter()
@@ -86,27 +86,28 @@ fn scene(scene: &SceneReport) -> io::Result<Markup> {
     let reference = data_uri(&scene.reference)?;
     let size = scene.size;
     Ok(html! {
-        section id=(anchor(&scene.name)) {
+        section id=(anchor(scene)) {
             h2 { (scene.name) " " small { (size.width) "×" (size.height) } }
             div.plots {
-                (diagram(scene, Cost::ALL[0], Measure::Total))
-                (diagram(scene, Cost::ALL[0], Measure::BeforeQuantisation))
+                (diagram(Cost::ALL[0], Measure::Total))
+                (diagram(Cost::ALL[0], Measure::BeforeQuantisation))
             }
             details {
                 summary { "Other costs: M3, M0, rays, tests, host time" }
                 div.plots {
                     @for cost in &Cost::ALL[1..] {
-                        @for measure in Measure::ALL { (diagram(scene, *cost, measure)) }
+                        @for measure in Measure::ALL { (diagram(*cost, measure)) }
                     }
                 }
             }
             h3 { "Worth having" }
-            (table_of(scene, |c| c.verdict == Verdict::Best))
-            (dominated(scene))
-            (failed(scene))
+            (table_of(scene, emulation, &table::brief(), |c| c.verdict == Verdict::Best))
+            (list("Equal", &table::equal(scene), ""))
+            (list("Dominated", &table::dominated(scene), ""))
+            (list("Failed", &table::failed(scene), "failed"))
             details {
                 summary { "All figures" }
-                (table_of(scene, |_| true))
+                (table_of(scene, emulation, &table::COLUMNS.iter().collect::<Vec<_>>(), |_| true))
             }
             details open {
                 summary { "Pictures, and how they differ from the reference" }
@@ -129,10 +130,10 @@ fn scene(scene: &SceneReport) -> io::Result<Markup> {
     })
 }
 
-fn diagram(scene: &SceneReport, cost: Cost, measure: Measure) -> Markup {
+fn diagram(scene: &SceneReport, emulation: &Emulation, cost: Cost, measure: Measure) -> Markup {
     html! {
         figure.plot {
-            @match plot::svg(scene, cost, measure) {
+            @match plot::svg(scene, emulation, cost, measure) {
                 Ok(svg) => (PreEscaped(svg)),
                 Err(why) => p { (why) },
             }
@@ -167,23 +168,33 @@ fn card(scene: &SceneReport, configuration: &Configuration) -> io::Result<Markup
 fn verdict_word(verdict: &Verdict) -> &'static str {
     match verdict {
         Verdict::Best => "Pareto front",
+        Verdict::EqualTo(_) => "equal",
         Verdict::DominatedBy(_) => "dominated",
         Verdict::Failed(_) => "failed",
         Verdict::NotForDevices => "no device",
     }
 }
 
-fn table_of(scene: &SceneReport, wanted: impl Fn(&Configuration) -> bool) -> Markup {
+fn table_of(
+    scene: &SceneReport,
+    emulation: &Emulation,
+    columns: &[&table::Column],
+    wanted: impl Fn(&Configuration) -> bool,
+) -> Markup {
     html! {
         div.scroll {
             table {
                 thead {
-                    tr { @for column in table::COLUMNS { th title=(column.explanation) { (column.heading) } } }
+                    tr {
+                        @for column in columns {
+                            th title=(column.explanation) { (table::heading(column, emulation)) }
+                        }
+                    }
                 }
                 tbody {
                     @for configuration in scene.configurations.iter().filter(|c| wanted(c)) {
                         tr class=(verdict_word(&configuration.verdict).replace(' ', "-")) {
-                            @for column in table::COLUMNS { td { ((column.cell)(configuration)) } }
+                            @for column in columns { td { ((column.cell)(configuration)) } }
                         }
                     }
                 }
@@ -192,22 +203,13 @@ fn table_of(scene: &SceneReport, wanted: impl Fn(&Configuration) -> bool) -> Mar
     }
 }
 
-fn dominated(scene: &SceneReport) -> Markup {
+fn list(heading: &str, lines: &[String], class: &str) -> Markup {
     html! {
-        h3 { "Dominated" }
-        @match table::dominated(scene) {
-            list if list.is_empty() => p { "Nothing." },
-            list => ul.columns { @for line in list { li { (line) } } },
-        }
-    }
-}
-
-fn failed(scene: &SceneReport) -> Markup {
-    html! {
-        h3 { "Failed" }
-        @match table::failed(scene) {
-            list if list.is_empty() => p { "Nothing." },
-            list => ul { @for line in list { li.failed { (line) } } },
+        h3 { (heading) }
+        @if lines.is_empty() {
+            p { "Nothing." }
+        } @else {
+            ul.columns { @for line in lines { li class=(class) { (line) } } }
         }
     }
 }

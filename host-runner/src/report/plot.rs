@@ -4,15 +4,17 @@ use std::fmt::Write as _;
 
 use plotters::prelude::*;
 
-use super::document::{Configuration, Cost, Measure, SceneReport, Verdict};
+use super::document::{Configuration, Cost, Emulation, Measure, SceneReport, Verdict};
+use super::pareto::Standing;
+use super::sweep::front;
 
 /// Size of a diagram in units of its own, which is scaled to where it is shown.
 const WIDTH: u32 = 460;
 const CHART_HEIGHT: u32 = 330;
 const LEGEND_ROW: u32 = 17;
 
-/// Colours that people with any kind of colour vision tell apart (Okabe and Ito 2008).
-const COLORS: [RGBColor; 8] = [
+/// Colours: first those that people with any kind of colour vision tell apart (Okabe and Ito 2008). Shapes help.
+const COLORS: [RGBColor; 12] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -21,49 +23,69 @@ const COLORS: [RGBColor; 8] = [
     RGBColor(230, 159, 0),
     RGBColor(110, 110, 110),
     RGBColor(140, 86, 75),
+    RGBColor(110, 60, 150),
+    RGBColor(120, 130, 0),
+    RGBColor(0, 130, 140),
+    RGBColor(0, 0, 0),
 ];
 
 /// A point that can be drawn.
 struct Mark<'a> {
     label: &'a str,
     configuration: &'a Configuration,
-    cost: f64,
+    /// Where it is not known, as on devices for what no device has, the point stands on the right edge.
+    cost: Option<f64>,
     error: f64,
+    is_on_front: bool,
 }
 
 /// The diagram of a scene as SVG; words if nothing can be drawn.
-pub(crate) fn svg(scene: &SceneReport, cost: Cost, measure: Measure) -> Result<String, String> {
+pub(crate) fn svg(
+    scene: &SceneReport,
+    emulation: &Emulation,
+    cost: Cost,
+    measure: Measure,
+) -> Result<String, String> {
+    let standings = front(&scene.configurations, cost, measure);
     let lines: Vec<(&str, Vec<Mark<'_>>)> = scene
         .knobs
         .iter()
-        .map(|line| (line.knob, marks(scene, &line.points, cost, measure)))
+        .filter(|line| cost.shows(line))
+        .map(|line| {
+            (
+                line.knob,
+                marks(scene, &standings, &line.points, cost, measure),
+            )
+        })
         .filter(|(_, marks)| !marks.is_empty())
         .collect();
     let all = || lines.iter().flat_map(|(_, marks)| marks);
-    let costs = range(all().map(|mark| mark.cost)).ok_or("nothing to draw")?;
+    let costs = range(all().filter_map(|mark| mark.cost)).ok_or("nothing to draw")?;
     // An error of 0 has no logarithm: it stands on the lower edge.
     let errors =
         range(all().map(|mark| mark.error).filter(|error| *error > 0.0)).unwrap_or((1e-3, 1.0));
     let rows = lines.len().div_ceil(2) as u32 + 1;
-    let height = CHART_HEIGHT + rows * LEGEND_ROW + 4;
+    let height = CHART_HEIGHT + (rows + 1) * LEGEND_ROW + 4;
+    let axis = cost.label(emulation);
 
     let mut svg = String::new();
     let mut drawing = Drawing::default();
     {
         let backend = SVGBackend::with_string(&mut svg, (WIDTH, height));
         let root = backend.into_drawing_area();
-        draw_chart(&root, &lines, (costs, errors), cost, measure, &mut drawing)
+        draw_chart(&root, &lines, (costs, errors), &axis, measure, &mut drawing)
             .map_err(|error| error.to_string())?;
         root.present().map_err(|error| error.to_string())?;
     }
     drawing.legend(&lines.iter().map(|(knob, _)| *knob).collect::<Vec<_>>());
     let end = svg.rfind("</svg>").ok_or("the plot has no end")?;
     svg.insert_str(end, &drawing.svg);
-    Ok(accessible(&svg, &scene.name, cost, measure))
+    Ok(accessible(&svg, &scene.name, &axis, measure))
 }
 
 fn marks<'a>(
     scene: &'a SceneReport,
+    standings: &[Option<Standing>],
     points: &'a [(String, usize)],
     cost: Cost,
     measure: Measure,
@@ -75,8 +97,9 @@ fn marks<'a>(
             Some(Mark {
                 label,
                 configuration,
-                cost: cost.of(configuration).filter(|cost| *cost > 0.0)?,
+                cost: cost.of(configuration).filter(|cost| *cost > 0.0),
                 error: measure.of(configuration),
+                is_on_front: standings.get(*index) == Some(&Some(Standing::OnFront)),
             })
         })
         .collect()
@@ -100,7 +123,7 @@ fn draw_chart<'a>(
     root: &DrawingArea<SVGBackend<'a>, plotters::coord::Shift>,
     lines: &[(&str, Vec<Mark<'_>>)],
     (costs, errors): (Range, Range),
-    cost: Cost,
+    axis: &str,
     measure: Measure,
     drawing: &mut Drawing,
 ) -> Result<(), Box<dyn std::error::Error + 'a>> {
@@ -126,20 +149,19 @@ fn draw_chart<'a>(
         .axis_style(RGBColor(90, 90, 90))
         .label_style(("sans-serif", 13))
         .axis_desc_style(("sans-serif", 14))
-        .x_desc(cost.label())
+        .x_desc(axis)
         .y_desc(measure.label())
         .x_label_formatter(&|value| number(*value))
         .y_label_formatter(&|value| number(*value))
         .draw()?;
     for (index, (knob, marks)) in lines.iter().enumerate() {
-        let color = COLORS[index % COLORS.len()];
-        let place = |mark: &Mark<'_>| (mark.cost, mark.error.max(errors.0));
-        chart.draw_series(LineSeries::new(
-            marks.iter().map(place),
-            color.stroke_width(2),
-        ))?;
-        for mark in marks {
-            let at = chart.backend_coord(&place(mark));
+        let place = |mark: &Mark<'_>| {
+            let cost = mark.cost.unwrap_or(costs.1);
+            chart.backend_coord(&(cost, mark.error.max(errors.0)))
+        };
+        let places: Vec<_> = marks.iter().map(place).collect();
+        drawing.line(index, knob, &places);
+        for (mark, at) in marks.iter().zip(places) {
             drawing.mark(index, at, knob, mark);
         }
     }
@@ -154,22 +176,37 @@ struct Drawing {
 }
 
 impl Drawing {
+    /// The line of a knob: through all of its points, in order.
+    fn line(&mut self, index: usize, knob: &str, places: &[(i32, i32)]) {
+        let color = css(COLORS[index % COLORS.len()]);
+        let points: Vec<_> = places.iter().map(|(x, y)| format!("{x},{y}")).collect();
+        let _ = write!(
+            self.svg,
+            "<polyline class=\"knob\" data-knob=\"{}\" points=\"{}\" fill=\"none\" stroke=\"{color}\" \
+             stroke-width=\"2\"/>",
+            escape(knob),
+            points.join(" ")
+        );
+    }
+
     /// A point with its label, and what it is when the cursor rests on it.
     fn mark(&mut self, index: usize, (x, y): (i32, i32), knob: &str, mark: &Mark<'_>) {
         let color = css(COLORS[index % COLORS.len()]);
         let configuration = mark.configuration;
-        let fill = if mark.error > 0.0 { &color } else { "white" };
+        let is_inside = mark.error > 0.0 && mark.cost.is_some();
+        let fill = if is_inside { &color } else { "white" };
         let _ = write!(self.svg, "<g class=\"mark\"><title>");
         let _ = write!(
             self.svg,
-            "{knob}: {} ({})&#10;cost {}, error {}</title>",
+            "{}: {} ({})&#10;cost {}, error {}</title>",
+            escape(knob),
             escape(mark.label),
             escape(&configuration.name),
-            number(mark.cost),
+            mark.cost.map_or("not known".to_owned(), number),
             number(mark.error)
         );
         match configuration.verdict {
-            Verdict::Best => {
+            _ if mark.is_on_front => {
                 let _ = write!(
                     self.svg,
                     "<circle cx=\"{x}\" cy=\"{y}\" r=\"8\" fill=\"none\" stroke=\"black\" stroke-width=\"1.5\"/>"
@@ -235,8 +272,11 @@ impl Drawing {
             66,
             CHART_HEIGHT as i32 + 9 + knobs.len().div_ceil(2) as i32 * LEGEND_ROW as i32,
         );
-        text(last, "Pareto front");
-        text((last.0 + 190, last.1), "error 0: on the lower edge");
+        text(last, "Pareto front of this plot");
+        text(
+            (last.0 + 190, last.1),
+            "error 0: lower edge; no cost: right edge",
+        );
         for index in 0..knobs.len() {
             let (x, y) = place(index);
             let color = css(COLORS[index % COLORS.len()]);
@@ -276,12 +316,16 @@ fn escape(words: &str) -> String {
         .replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")
+        .replace('"', "&quot;")
 }
 
 /// A number in few characters.
 pub(crate) fn number(value: f64) -> String {
     match value.abs() {
         0.0 => "0".to_owned(),
+        1e15.. => format!("{value:.0e}"),
+        1e12.. => format!("{}T", trimmed(value / 1e12)),
+        1e9.. => format!("{}G", trimmed(value / 1e9)),
         1e6.. => format!("{}M", trimmed(value / 1e6)),
         1e4.. => format!("{}k", trimmed(value / 1e3)),
         1e-3.. => trimmed(value),
@@ -311,12 +355,11 @@ fn trimmed(value: f64) -> String {
 }
 
 /// Says what the picture is to those who cannot see it.
-fn accessible(svg: &str, scene: &str, cost: Cost, measure: Measure) -> String {
+fn accessible(svg: &str, scene: &str, axis: &str, measure: Measure) -> String {
     let words = format!(
-        "{scene}: {} against {}; {}",
+        "{scene}: {} against {}; {axis}",
         measure.label(),
-        measure.reference(),
-        cost.label()
+        measure.reference()
     );
     svg.replacen(
         "<svg ",
@@ -332,13 +375,14 @@ mod tests {
     #[test]
     fn numbers_are_short() {
         let numbers = [
-            0.0, 1e-5, 0.02, 0.5, 1.25, 12.0, 123.4, 5000.0, 12_345.0, 2.5e6,
+            0.0, 1e-5, 0.02, 0.5, 1.25, 12.0, 123.4, 5000.0, 12_345.0, 2.5e6, 59.9e9, 1e13, 2e15,
         ]
         .map(number);
         assert_eq!(
             numbers,
             [
-                "0", "1e-5", "0.02", "0.5", "1.25", "12", "123", "5000", "12.3k", "2.5M"
+                "0", "1e-5", "0.02", "0.5", "1.25", "12", "123", "5000", "12.3k", "2.5M", "59.9G",
+                "10T", "2e15"
             ]
         );
     }

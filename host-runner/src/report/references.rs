@@ -17,11 +17,13 @@ use scanray::{
     Subpixel,
 };
 
-use super::linear::Linear;
+use super::linear::{Linear, in_greys};
 use super::settings::Sampling;
 use super::tracing::ReportTracer;
 use crate::drawing::Workers;
 use crate::failure::Failure;
+use crate::knobs::Detail;
+use crate::options::ColorName;
 
 /// How many secondary rays follow one another in R1 and R2.
 pub(crate) const DEPTH: usize = 16;
@@ -36,9 +38,10 @@ pub(crate) const SAMPLES: u32 = SAMPLES_A_SIDE as u32 * SAMPLES_A_SIDE as u32;
 pub(crate) struct References<'a> {
     tracer: ReportTracer<'a, f64>,
     /// R1 of each way of sampling that was asked for.
-    r1: Mutex<Vec<(Sampling, Arc<Linear>)>>,
-    /// Many samples a pixel.
+    r1: Mutex<Vec<((Sampling, Detail), Arc<Linear>)>>,
+    /// Many samples a pixel, and the same in greys.
     pub(crate) r2: Linear,
+    r2_in_greys: Linear,
     /// What R1 leaves out, with one sample a pixel.
     pub(crate) left_out: LeftOut,
 }
@@ -63,39 +66,59 @@ impl<'a> References<'a> {
         workers: &Workers,
     ) -> Result<Self, Failure> {
         let tracer = ReportTracer::new(scene, resolution, DEPTH, 0.0)?;
-        let larger = |side: u16| {
-            side.checked_mul(SAMPLES_A_SIDE).ok_or_else(|| {
-                let most = u16::MAX / SAMPLES_A_SIDE;
-                Failure::Usage(format!(
-                    "a side of {side} pixels is too long for the reference, which takes {SAMPLES} samples \
-                     a pixel: at most {most}; name a smaller --size"
-                ))
-            })
-        };
-        let large = Resolution {
-            width: larger(resolution.width)?,
-            height: larger(resolution.height)?,
-        };
+        let large = enlarged(resolution)?;
         let fine = ReportTracer::new(scene, large, DEPTH, 0.0)?;
+        let r2 = Linear::draw_reduced(&fine, SAMPLES_A_SIDE, workers);
         Ok(Self {
             tracer,
             r1: Mutex::default(),
-            r2: Linear::draw_reduced(&fine, SAMPLES_A_SIDE, workers),
+            r2_in_greys: in_greys(r2.clone(), ColorName::Gray8),
+            r2,
             left_out: left_out(&tracer, workers),
         })
     }
 
+    /// R2 as a display of a kind would show it if it had all levels.
+    pub(crate) fn r2_in(&self, color: ColorName) -> &Linear {
+        if color.is_grey() {
+            &self.r2_in_greys
+        } else {
+            &self.r2
+        }
+    }
+
     /// R1 of a way of sampling.
-    pub(crate) fn r1(&self, sampling: Sampling, workers: &Workers) -> Arc<Linear> {
+    pub(crate) fn r1(&self, sampling: Sampling, preview: Detail, workers: &Workers) -> Arc<Linear> {
         let mut known = self.r1.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, r1)) = known.iter().find(|(of, _)| *of == sampling) {
+        if let Some((_, r1)) = known.iter().find(|(of, _)| *of == (sampling, preview)) {
             return r1.clone();
         }
-        let colors = self.tracer.colors(sampling, workers);
+        let colors = self.tracer.colors(sampling, preview, workers);
         let r1 = Arc::new(Linear::new(self.tracer.resolution(), &colors));
-        known.push((sampling, r1.clone()));
+        known.push(((sampling, preview), r1.clone()));
         r1
     }
+}
+
+/// The size of a picture that has a pixel for each sample of R2.
+///
+/// # Errors
+///
+/// [`Failure::Usage`] for a side that is too long.
+pub(crate) fn enlarged(resolution: Resolution) -> Result<Resolution, Failure> {
+    let larger = |side: u16| {
+        side.checked_mul(SAMPLES_A_SIDE).ok_or_else(|| {
+            let most = u16::MAX / SAMPLES_A_SIDE;
+            Failure::Usage(format!(
+                "a side of {side} pixels is too long for the reference, which takes {SAMPLES} samples \
+                 a pixel: at most {most}; name a smaller --size"
+            ))
+        })
+    };
+    Ok(Resolution {
+        width: larger(resolution.width)?,
+        height: larger(resolution.height)?,
+    })
 }
 
 /// Bounds what a picture lacks because secondary rays are not cast.

@@ -29,13 +29,21 @@ impl BothScalars {
     ///
     /// [`Failure`].
     pub(crate) fn load(source: &SceneSource) -> Result<Self, Failure> {
-        let text = source.read()?;
+        Self::load_text(source, &source.read()?)
+    }
+
+    /// The same for a text that was read from there.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure`].
+    pub(crate) fn load_text(source: &SceneSource, text: &[u8]) -> Result<Self, Failure> {
         let mut single = f32::pools();
-        source.load_text(&text, &mut single)?;
+        source.load_text(text, &mut single)?;
         let mut double = f64::pools();
         // Whatever was to be said of the text has been said.
         double
-            .parse(&text)
+            .parse(text)
             .map_err(|error| Failure::Scene(error.to_string()))?;
         Ok(Self {
             single: Loaded::new(single),

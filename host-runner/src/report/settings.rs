@@ -6,7 +6,20 @@ use clap::ValueEnum;
 use scanray::DEFAULT_MAX_DEPTH;
 use serde::{Serialize, Serializer};
 
+use crate::cost::Core;
+use crate::knobs::Detail;
 use crate::options::{ColorName, ScalarName, name_of};
+
+/// The formulas that rays meet shapes by, and where new rays start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Formulas {
+    /// The core's: robust ones, and origins that are offset by a bound derived from rounding
+    Robust,
+    /// The core's, but origins that are offset by a fixed distance
+    FixedOffset,
+    /// What most ray tracers do: [`scanray_stability::textbook`]
+    Textbook,
+}
 
 /// How a highlight's power is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -45,6 +58,9 @@ pub(crate) struct Settings {
     pub(crate) cutoff: Option<u16>,
     pub(crate) sampling: Sampling,
     pub(crate) power: PowerRoutine,
+    pub(crate) formulas: Formulas,
+    /// How much is there of a picture that is drawn coarse to fine.
+    pub(crate) preview: Detail,
     pub(crate) color: ColorName,
     pub(crate) dither: bool,
 }
@@ -57,6 +73,8 @@ impl Settings {
         cutoff: None,
         sampling: Sampling::Fixed(1),
         power: PowerRoutine::Squaring,
+        formulas: Formulas::Robust,
+        preview: Detail::Full,
         color: ColorName::Rgb888,
         dither: false,
     };
@@ -68,6 +86,12 @@ impl Settings {
     /// says nothing about dither.
     pub(crate) fn same_display(&self, other: &Self) -> bool {
         self.color == other.color && self.dither == other.dither
+    }
+
+    /// Whether a firmware can have them: the formulas of others exist on the host alone, and double precision has
+    /// no hardware on these cores.
+    pub(crate) fn is_for_devices(&self) -> bool {
+        self.scalar == ScalarName::F32 && self.formulas == Formulas::Robust
     }
 }
 
@@ -91,6 +115,14 @@ impl fmt::Display for Settings {
         if self.power != default.power {
             words.push("polynomial power".to_owned());
         }
+        match self.formulas {
+            Formulas::Robust => {}
+            Formulas::FixedOffset => words.push("fixed offset".to_owned()),
+            Formulas::Textbook => words.push("textbook formulas".to_owned()),
+        }
+        if self.preview != default.preview {
+            words.push(format!("{} preview", name_of(self.preview)));
+        }
         if self.color != default.color {
             words.push(name_of(self.color));
         }
@@ -107,12 +139,14 @@ impl fmt::Display for Settings {
 
 impl Settings {
     /// The names of what can be set, for tables.
-    pub(crate) const FIELDS: [&'static str; 7] = [
+    pub(crate) const FIELDS: [&'static str; 9] = [
         "scalar",
         "max_depth",
         "cutoff",
         "sampling",
         "power",
+        "formulas",
+        "preview",
         "color",
         "dither",
     ];
@@ -125,6 +159,8 @@ impl Settings {
             self.cutoff.map_or("0".to_owned(), |of| format!("1/{of}")),
             self.sampling.to_string(),
             name_of(self.power),
+            name_of(self.formulas),
+            name_of(self.preview),
             name_of(self.color),
             self.dither.to_string(),
         ]
@@ -141,6 +177,8 @@ impl Serialize for Settings {
 #[derive(Clone, Debug)]
 pub(crate) struct Knob {
     pub(crate) name: &'static str,
+    /// The core that the steps are for, if they are for one.
+    pub(crate) core: Option<Core>,
     pub(crate) steps: Vec<Step>,
 }
 
@@ -170,6 +208,7 @@ impl Knob {
         };
         Self {
             name,
+            core: None,
             steps: values.iter().map(step).collect(),
         }
     }
@@ -204,6 +243,27 @@ pub(crate) fn knobs() -> Vec<Knob> {
             &[None, Some(4), Some(8), Some(16), Some(32), Some(64)],
             |of| of.map_or("off".to_owned(), |of| format!("1/{of}")),
             |settings, of| settings.sampling = of.map_or(Sampling::Fixed(1), Sampling::Adaptive),
+        ),
+        Knob::new(
+            "preview, coarse to fine",
+            &[Detail::Quarter, Detail::Half, Detail::Full],
+            name_of,
+            |settings, preview| settings.preview = preview,
+        ),
+        Knob::new(
+            "formulas",
+            &[Formulas::Robust, Formulas::Textbook],
+            name_of,
+            |settings, formulas| settings.formulas = formulas,
+        ),
+        Knob::new(
+            "ray offset",
+            &[Formulas::Robust, Formulas::FixedOffset],
+            |formulas| match formulas {
+                Formulas::FixedOffset => "fixed".to_owned(),
+                _ => "derived".to_owned(),
+            },
+            |settings, formulas| settings.formulas = formulas,
         ),
         Knob::new(
             "scalar",

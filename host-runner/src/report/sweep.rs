@@ -1,18 +1,20 @@
 //! Measures every setting of every knob.
 
 use scanray::{Color, Dithered, Exact, Resolution, Scalar, Scene};
+use scanray_stability::textbook::{Effort, Textbook};
 
 use super::document::{Configuration, Cost, Line, Measure, PerPixel, SceneReport, Verdict};
 use super::errors::{Error, Errors, Steps};
-use super::linear::{Linear, shown};
-use super::pareto::{Point, dominators};
+use super::linear::{Linear, in_greys, shown};
+use super::pareto::{Point, Standing, standings};
 use super::references::{LeftOut, References};
 use super::scenes::BothScalars;
-use super::settings::{Knob, Settings, knobs};
+use super::settings::{Formulas, Knob, Settings, knobs};
 use super::timing::HostTime;
 use super::tracing::ReportTracer;
+use super::tune;
 use crate::compare::{Comparison, DEFAULT_PIXELS_PER_DEGREE};
-use crate::cost::{Core, MODEL, Work, no_prediction};
+use crate::cost::{Core, MODEL, Work};
 use crate::drawing::Workers;
 use crate::failure::Failure;
 use crate::image::Image;
@@ -30,19 +32,23 @@ pub(crate) struct Sweep<'a> {
     workers: &'a Workers,
 }
 
-/// A picture of some settings before quantisation and as it is shown.
+/// A picture of some settings before quantisation and as it is shown, and what it takes.
 struct Drawn {
     linear: Linear,
     shown: Vec<[u8; 3]>,
+    per_pixel: PerPixel,
+    /// None of formulas that are not the core's.
+    work: Option<Work>,
+    host_time: HostTime,
 }
 
 /// What settings take and how wrong their picture is.
 pub(crate) struct Estimate {
     pub(crate) work: Work,
-    /// Of a picture.
-    pub(crate) instructions: f64,
-    /// Of what is shown, against R2, in levels of 255.
-    pub(crate) rmse: f64,
+    /// Of a picture, by [`Core::ALL`].
+    pub(crate) instructions: [f64; Core::ALL.len()],
+    /// Of what is shown, against R2: FLIP where it is dithered, else the root of the mean square in levels of 255.
+    pub(crate) error: f64,
 }
 
 impl<'a> Sweep<'a> {
@@ -71,20 +77,38 @@ impl<'a> Sweep<'a> {
         self.references.left_out
     }
 
-    /// How many configurations [`Sweep::run`] measures.
-    pub(crate) fn steps() -> u64 {
-        distinct(&knobs()).len() as u64
+    /// Whether pictures can be of a size.
+    ///
+    /// # Errors
+    ///
+    /// [`Failure::Usage`] for one that is too large for the references.
+    pub(crate) fn check(resolution: Resolution) -> Result<(), Failure> {
+        super::references::enlarged(resolution).map(drop)
     }
 
-    /// Turns all knobs.
+    /// How many steps [`Sweep::run`] takes at least.
+    pub(crate) fn steps() -> u64 {
+        distinct(&knobs()).len() as u64 + tune::steps()
+    }
+
+    /// Turns all knobs, and measures combinations too: those of [`choices`](super::tune::choices) on each core.
     ///
     /// # Errors
     ///
     /// [`Failure`].
     pub(crate) fn run(&self, name: String, progress: &Progress) -> Result<SceneReport, Failure> {
-        let knobs = knobs();
+        let mut knobs = knobs();
+        let known = distinct(&knobs).len();
+        for (core, choices) in Core::ALL.into_iter().zip(tune::choices(self, progress)?) {
+            knobs.push(Knob {
+                name: "tune's choices",
+                core: Some(core),
+                steps: choices,
+            });
+        }
         let settings = distinct(&knobs);
-        let mut configurations = settings
+        progress.expect((settings.len() - known) as u64);
+        let configurations = settings
             .iter()
             .map(|settings| {
                 let configuration = self.measure(settings);
@@ -92,12 +116,12 @@ impl<'a> Sweep<'a> {
                 configuration
             })
             .collect::<Result<Vec<_>, _>>()?;
-        judge(&mut configurations);
         let index_of = |wanted: &Settings| settings.iter().position(|settings| settings == wanted);
         let lines = knobs
             .iter()
             .map(|knob| Line {
                 knob: knob.name,
+                core: knob.core,
                 points: knob
                     .steps
                     .iter()
@@ -106,6 +130,7 @@ impl<'a> Sweep<'a> {
             })
             .collect();
         Ok(SceneReport {
+            slug: slug(&name),
             name,
             size: self.resolution,
             left_out_of_reference: self.left_out(),
@@ -123,60 +148,68 @@ impl<'a> Sweep<'a> {
     pub(crate) fn measure(&self, settings: &Settings) -> Result<Configuration, Failure> {
         let single = self.scene.single(settings.power);
         let double = self.scene.double(settings.power);
-        let (drawn, work, host_time) = match settings.scalar {
+        let drawn = match settings.scalar {
             ScalarName::F32 => self.draw(single, settings)?,
             ScalarName::F64 => self.draw(double, settings)?,
         };
         let exact = self.tracer(double, settings)?;
-        let exact = exact.colors(settings.sampling, self.workers);
+        let exact = exact.colors(settings.sampling, settings.preview, self.workers);
         let exact = Linear::new(self.resolution, &exact);
-        let r1 = self.references.r1(settings.sampling, self.workers);
+        let r1 = self
+            .references
+            .r1(settings.sampling, settings.preview, self.workers);
+        // A grey display is compared with what it would show if it had all greys.
+        let r2 = self.references.r2_in(settings.color);
         let on_display = self.on_display(&drawn.shown);
         let errors = Errors::split(&Steps {
             shown: &on_display,
-            linear: &drawn.linear,
-            exact: &exact,
-            r1: &r1,
-            r2: &self.references.r2,
+            linear: &in_greys(drawn.linear, settings.color),
+            exact: &in_greys(exact, settings.color),
+            r1: &in_greys(Linear::clone(&r1), settings.color),
+            r2,
         });
-        let reference = image(self.resolution, &self.references.r2.to_rgb888());
+        let reference = image(self.resolution, &r2.to_rgb888());
         let shown = image(self.resolution, &drawn.shown);
         let flip = Comparison::of(&reference, &shown, DEFAULT_PIXELS_PER_DEGREE).flip();
-        let instructions = (settings.scalar == ScalarName::F32)
-            .then(|| MODEL.instructions_per_pixel(&work))
-            .flatten();
+        let predicted = drawn.work.filter(|_| settings.is_for_devices());
         Ok(Configuration {
             name: settings.to_string(),
             settings: *settings,
             errors,
             flip,
-            work: PerPixel::of(&work),
-            host_time,
-            instructions,
-            verdict: match instructions {
-                Some(_) => Verdict::Best,
-                None => Verdict::NotForDevices,
-            },
+            work: drawn.per_pixel,
+            host_time: drawn.host_time,
+            predicted: predicted.map(|work| MODEL.instructions_per_pixel(&work)),
+            counted: [None; 3],
+            verdict: Verdict::NotForDevices,
             shown,
         })
     }
 
-    /// What settings in `f32` take and how wrong their picture is, and nothing else.
+    /// What settings for devices take and how wrong their picture is, and nothing else.
     ///
     /// # Errors
     ///
     /// [`Failure`].
-    pub(crate) fn estimate(&self, settings: &Settings, core: Core) -> Result<Estimate, Failure> {
+    pub(crate) fn estimate(&self, settings: &Settings) -> Result<Estimate, Failure> {
         let tracer = self.tracer(self.scene.single(settings.power), settings)?;
-        let work = tracer.work(settings.sampling, self.workers);
-        let instructions = MODEL
-            .instructions_per_pixel(&work)
-            .ok_or_else(no_prediction)?;
-        let colors = tracer.colors(settings.sampling, self.workers);
-        let on_display = self.on_display(&self.shown(&colors, settings));
+        let work = tracer.work(settings.sampling, settings.preview, self.workers);
+        let colors = tracer.colors(settings.sampling, settings.preview, self.workers);
+        let r2 = self.references.r2_in(settings.color);
+        let shown = self.shown(&colors, settings);
+        let error = if settings.dither {
+            // The root of the mean square punishes the pattern, which the eye averages.
+            let [reference, shown] =
+                [&r2.to_rgb888(), &shown].map(|pixels| image(self.resolution, pixels));
+            Comparison::of(&reference, &shown, DEFAULT_PIXELS_PER_DEGREE).flip()
+        } else {
+            Error::between(&self.on_display(&shown), r2).rmse
+        };
         Ok(Estimate {
-            instructions: instructions[core as usize] * work.pixels as f64,
-            rmse: Error::between(&on_display, &self.references.r2).rmse,
+            instructions: MODEL
+                .instructions_per_pixel(&work)
+                .map(|each| each * work.pixels as f64),
+            error,
             work,
         })
     }
@@ -209,20 +242,52 @@ impl<'a> Sweep<'a> {
     }
 
     /// The picture, what it takes, and how long.
-    fn draw<T: Scalar>(
-        &self,
-        scene: Scene<'_, T>,
-        settings: &Settings,
-    ) -> Result<(Drawn, Work, HostTime), Failure> {
+    fn draw<T: Scalar>(&self, scene: Scene<'_, T>, settings: &Settings) -> Result<Drawn, Failure> {
         let tracer = self.tracer(scene, settings)?;
-        let colors = tracer.colors(settings.sampling, self.workers);
-        let shown = self.shown(&colors, settings);
-        let drawn = Drawn {
-            linear: Linear::new(self.resolution, &colors),
-            shown,
+        let others = match settings.formulas {
+            Formulas::Robust => None,
+            Formulas::FixedOffset => {
+                Some(Textbook::new(scene, settings.max_depth).with_robust_shapes())
+            }
+            Formulas::Textbook => Some(Textbook::new(scene, settings.max_depth)),
         };
-        let work = tracer.work(settings.sampling, self.workers);
-        Ok((drawn, work, tracer.time(settings.sampling)))
+        let (colors, per_pixel, work, host_time) = match others {
+            None => {
+                let work = tracer.work(settings.sampling, settings.preview, self.workers);
+                (
+                    tracer.colors(settings.sampling, settings.preview, self.workers),
+                    PerPixel::of(&work),
+                    Some(work),
+                    tracer.time(settings.sampling, settings.preview),
+                )
+            }
+            Some(textbook) => {
+                let mut effort = Effort::default();
+                let colors = tracer.primary_rays();
+                let colors: Vec<_> = colors
+                    .iter()
+                    .map(|ray| textbook.radiance_counted(ray, &mut effort))
+                    .collect();
+                let pixels = colors.len().max(1) as f64;
+                let per_pixel = PerPixel {
+                    rays: effort.rays as f64 / pixels,
+                    tests: effort.tests as f64 / pixels,
+                };
+                let time = HostTime::measure(&|| {
+                    for ray in tracer.primary_rays() {
+                        std::hint::black_box(textbook.radiance(&ray));
+                    }
+                });
+                (colors, per_pixel, None, time)
+            }
+        };
+        Ok(Drawn {
+            linear: Linear::new(self.resolution, &colors),
+            shown: self.shown(&colors, settings),
+            per_pixel,
+            work,
+            host_time,
+        })
     }
 }
 
@@ -245,8 +310,21 @@ fn image(resolution: Resolution, pixels: &[[u8; 3]]) -> Image {
     }
 }
 
-/// Finds what has failed, and what is dominated by another configuration on the same display.
-fn judge(configurations: &mut [Configuration]) {
+/// The part of a file's name and of an anchor that stands for a name.
+pub(crate) fn slug(name: &str) -> String {
+    let plain = |c: char| {
+        if c.is_ascii_alphanumeric() {
+            c.to_ascii_lowercase()
+        } else {
+            '-'
+        }
+    };
+    name.chars().map(plain).collect()
+}
+
+/// Finds what has failed, what is on the Pareto front, and what is dominated by or equal to another configuration on the
+/// same display.
+pub(crate) fn judge(configurations: &mut [Configuration]) {
     for configuration in &mut *configurations {
         let rounding = &configuration.errors.rounding;
         if rounding.share_above_a_level > ALLOWED_SHARE {
@@ -257,28 +335,56 @@ fn judge(configurations: &mut [Configuration]) {
             ));
         }
     }
-    let candidates: Vec<usize> = (0..configurations.len())
-        .filter(|i| configurations[*i].verdict == Verdict::Best)
-        .collect();
     let cost = Cost::Instructions(Core::M4f);
-    for i in &candidates {
-        let display = configurations[*i].settings;
-        let group: Vec<usize> = candidates
-            .iter()
-            .copied()
-            .filter(|other| configurations[*other].settings.same_display(&display))
-            .collect();
-        let points: Vec<Point> = group
-            .iter()
-            .map(|other| Point {
-                cost: cost.of(&configurations[*other]).unwrap_or(f64::INFINITY),
-                error: Measure::Total.of(&configurations[*other]),
-            })
-            .collect();
-        let place = group.iter().position(|other| other == i);
-        let dominator = place.and_then(|place| dominators(&points)[place]);
-        if let Some(dominator) = dominator {
-            configurations[*i].verdict = Verdict::DominatedBy(group[dominator]);
+    let standings = front(configurations, cost, Measure::Total);
+    for (configuration, standing) in configurations.iter_mut().zip(standings) {
+        if let Some(standing) = standing {
+            configuration.verdict = match standing {
+                Standing::OnFront => Verdict::Best,
+                Standing::EqualTo(other) => Verdict::EqualTo(other),
+                Standing::DominatedBy(other) => Verdict::DominatedBy(other),
+            };
         }
     }
+}
+
+/// How each configuration stands among those on the same display; `None` for those that have failed or whose cost is
+/// not known.
+pub(crate) fn front(
+    configurations: &[Configuration],
+    cost: Cost,
+    measure: Measure,
+) -> Vec<Option<Standing>> {
+    let point = |configuration: &Configuration| {
+        let has_failed = matches!(configuration.verdict, Verdict::Failed(_));
+        let cost = cost.of(configuration).filter(|_| !has_failed)?;
+        Some(Point {
+            cost,
+            error: measure.of(configuration),
+        })
+    };
+    let points: Vec<Option<Point>> = configurations.iter().map(point).collect();
+    let mut found = vec![None; configurations.len()];
+    for i in 0..configurations.len() {
+        if points[i].is_none() || found[i].is_some() {
+            continue;
+        }
+        let display = &configurations[i].settings;
+        // The default first: of equals it stands for all.
+        let mut group: Vec<usize> = (0..configurations.len())
+            .filter(|other| {
+                points[*other].is_some() && configurations[*other].settings.same_display(display)
+            })
+            .collect();
+        group.sort_by_key(|other| configurations[*other].settings != Settings::DEFAULT);
+        let of_group: Vec<Point> = group.iter().filter_map(|other| points[*other]).collect();
+        for (other, standing) in group.iter().zip(standings(&of_group)) {
+            found[*other] = Some(match standing {
+                Standing::OnFront => Standing::OnFront,
+                Standing::EqualTo(place) => Standing::EqualTo(group[place]),
+                Standing::DominatedBy(place) => Standing::DominatedBy(group[place]),
+            });
+        }
+    }
+    found
 }

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::document::{Configuration, Cost, Document, SceneReport, Verdict};
+use super::document::{Configuration, Cost, Document, Emulation, SceneReport, Verdict};
 use super::errors::Error;
 use super::plot::number;
 use super::settings::Settings;
@@ -24,17 +24,17 @@ pub(crate) const COLUMNS: &[Column] = &[
     },
     Column {
         heading: "M4F",
-        explanation: "Instructions per pixel on Cortex-M4F, by the model",
+        explanation: "Instructions per pixel on Cortex-M4F",
         cell: |c| instructions(c, Core::M4f),
     },
     Column {
         heading: "M3",
-        explanation: "Instructions per pixel on Cortex-M3, by the model",
+        explanation: "Instructions per pixel on Cortex-M3",
         cell: |c| instructions(c, Core::M3),
     },
     Column {
         heading: "M0",
-        explanation: "Instructions per pixel on Cortex-M0, by the model",
+        explanation: "Instructions per pixel on Cortex-M0",
         cell: |c| instructions(c, Core::M0),
     },
     Column {
@@ -54,7 +54,8 @@ pub(crate) const COLUMNS: &[Column] = &[
             let time = c.host_time;
             let [median, least, most] =
                 [time.median, time.least, time.most].map(|s| number(1e3 * s));
-            format!("{median} ({least} to {most})")
+            let doubt = if time.is_doubtful() { "?" } else { "" };
+            format!("{median}{doubt} ({least} to {most})")
         },
     },
     Column {
@@ -83,6 +84,11 @@ pub(crate) const COLUMNS: &[Column] = &[
         cell: |c| number(c.errors.total.rmse),
     },
     Column {
+        heading: "PSNR",
+        explanation: "Of what is shown against R2, in decibels",
+        cell: |c| format!("{} dB", number(psnr(c))),
+    },
+    Column {
         heading: "max",
         explanation: "The largest error of what is shown against R2",
         cell: |c| number(c.errors.total.max),
@@ -99,10 +105,56 @@ pub(crate) const COLUMNS: &[Column] = &[
     },
 ];
 
+/// The columns that decide, which fit on a page.
+pub(crate) fn brief() -> Vec<&'static Column> {
+    const HEADINGS: [&str; 9] = [
+        "settings",
+        "M4F",
+        "M3",
+        "M0",
+        "rays",
+        "total",
+        "PSNR",
+        "> 1 level",
+        "FLIP",
+    ];
+    let is_brief = |column: &&Column| HEADINGS.contains(&column.heading);
+    COLUMNS.iter().filter(is_brief).collect()
+}
+
 fn instructions(configuration: &Configuration, core: Core) -> String {
     Cost::Instructions(core)
         .of(configuration)
         .map_or("–".to_owned(), number)
+}
+
+/// Peak signal-to-noise ratio of what is shown, in decibels.
+fn psnr(configuration: &Configuration) -> f64 {
+    20.0 * (255.0 / configuration.errors.total.rmse).log10()
+}
+
+/// The heading of a column, with where its figures come from.
+pub(crate) fn heading(column: &Column, emulation: &Emulation) -> String {
+    let of = |core: &Core| core.name() == column.heading;
+    match Core::ALL.into_iter().find(of) {
+        Some(core) => format!("{core} ({})", emulation.word(core)),
+        None => column.heading.to_owned(),
+    }
+}
+
+/// A line for each configuration that is as another in cost and error, with that other.
+pub(crate) fn equal(scene: &SceneReport) -> Vec<String> {
+    scene
+        .configurations
+        .iter()
+        .filter_map(|configuration| match configuration.verdict {
+            Verdict::EqualTo(other) => {
+                let other = scene.configurations.get(other)?;
+                Some(format!("{}: to {}", configuration.name, other.name))
+            }
+            _ => None,
+        })
+        .collect()
 }
 
 /// A line for each dominated configuration, with what dominates it.
@@ -141,8 +193,11 @@ pub(crate) fn write_csv(document: &Document, out: &mut dyn Write) -> io::Result<
     let mut headings: Vec<String> = ["scene", "settings", "verdict"].map(str::to_owned).into();
     headings.extend(Settings::FIELDS.map(str::to_owned));
     headings.extend(["rays_per_pixel", "tests_per_pixel"].map(str::to_owned));
-    headings
-        .extend(["m4f", "m3", "m0"].map(|core| format!("{core}_instructions_per_pixel_by_model")));
+    for source in ["by_model", "emulated"] {
+        headings.extend(
+            ["m4f", "m3", "m0"].map(|core| format!("{core}_instructions_per_pixel_{source}")),
+        );
+    }
     headings.extend(["median", "least", "most"].map(|which| format!("host_seconds_{which}")));
     for error in [
         "rounding",
@@ -155,7 +210,7 @@ pub(crate) fn write_csv(document: &Document, out: &mut dyn Write) -> io::Result<
         headings
             .extend(["rmse", "max", "share_above_a_level"].map(|what| format!("{error}_{what}")));
     }
-    headings.push("flip".to_owned());
+    headings.extend(["total_psnr", "flip"].map(str::to_owned));
     write_record(out, &headings)?;
     for scene in &document.scenes {
         for configuration in &scene.configurations {
@@ -173,12 +228,14 @@ fn record(scene: &SceneReport, configuration: &Configuration) -> Vec<String> {
         flip,
         work,
         host_time,
-        instructions,
+        predicted,
+        counted,
         verdict,
         ..
     } = configuration;
     let verdict = match verdict {
         Verdict::Best => "pareto-front",
+        Verdict::EqualTo(_) => "equal",
         Verdict::DominatedBy(_) => "dominated",
         Verdict::Failed(_) => "failed",
         Verdict::NotForDevices => "not-for-devices",
@@ -186,10 +243,13 @@ fn record(scene: &SceneReport, configuration: &Configuration) -> Vec<String> {
     let mut record = vec![scene.name.clone(), name.clone(), verdict.to_owned()];
     record.extend(settings.words());
     record.extend([work.rays, work.tests].map(|n| n.to_string()));
-    record.extend(match instructions {
-        Some(all) => all.map(|n| format!("{n:.1}")),
-        None => [const { String::new() }; 3],
-    });
+    let predicted = predicted.map_or([None; 3], |all| all.map(Some));
+    record.extend(
+        [predicted, *counted]
+            .concat()
+            .into_iter()
+            .map(|count| count.map_or(String::new(), |n| format!("{n:.1}"))),
+    );
     record.extend([host_time.median, host_time.least, host_time.most].map(|n| n.to_string()));
     for Error {
         rmse,
@@ -205,7 +265,7 @@ fn record(scene: &SceneReport, configuration: &Configuration) -> Vec<String> {
     ] {
         record.extend([rmse, max, share_above_a_level].map(|n| n.to_string()));
     }
-    record.push(flip.to_string());
+    record.extend([psnr(configuration), *flip].map(|n| n.to_string()));
     record
 }
 

@@ -32,4 +32,9 @@ impl HostTime {
             most: seconds[RUNS - 1],
         }
     }
+
+    /// Whether the machine was busy with something else.
+    pub(crate) fn is_doubtful(&self) -> bool {
+        self.most > 1.5 * self.median
+    }
 }

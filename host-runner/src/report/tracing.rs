@@ -9,9 +9,37 @@ use scanray::{
 use super::references::DEPTH;
 use super::settings::{Sampling, Settings};
 use super::timing::HostTime;
-use crate::cost::{Counter, Work};
+use crate::cost::{Circumstances, Counter, Work};
 use crate::drawing::Workers;
 use crate::failure::Failure;
+use crate::knobs::Detail;
+
+/// Does something with the source of a way of sampling: the adaptive one stays on its thread.
+macro_rules! with_source {
+    ($tracer:expr, $sampling:expr, |$source:ident| adaptive: $adaptive:expr, fixed: $fixed:expr) => {
+        match $sampling {
+            Sampling::Adaptive(denominator) => {
+                $tracer.with_adaptive(denominator, |$source| $adaptive)
+            }
+            Sampling::Fixed(4) => {
+                let $source = &Supersampled::<_, 4>::new($tracer);
+                $fixed
+            }
+            Sampling::Fixed(16) => {
+                let $source = &Supersampled::<_, 16>::new($tracer);
+                $fixed
+            }
+            Sampling::Fixed(64) => {
+                let $source = &Supersampled::<_, 64>::new($tracer);
+                $fixed
+            }
+            Sampling::Fixed(_) => {
+                let $source = &Supersampled::<_, 1>::new($tracer);
+                $fixed
+            }
+        }
+    };
+}
 
 /// A tracer with every stage, and frames for the deepest reference.
 ///
@@ -54,84 +82,94 @@ impl<'a, T: Scalar> ReportTracer<'a, T> {
         self.0.nearest(ray)
     }
 
-    /// The colours of all pixels, row by row.
-    pub(crate) fn colors(&self, sampling: Sampling, workers: &Workers) -> Vec<Color<T>> {
-        match sampling {
-            Sampling::Fixed(samples) => match samples {
-                4 => rows(&Supersampled::<_, 4>::new(self), workers),
-                16 => rows(&Supersampled::<_, 16>::new(self), workers),
-                64 => rows(&Supersampled::<_, 64>::new(self), workers),
-                _ => rows(self, workers),
-            },
-            Sampling::Adaptive(denominator) => self.with_adaptive(denominator, |source| {
+    /// The rays through the centres of all pixels, row by row.
+    pub(crate) fn primary_rays(&self) -> Vec<Ray<T>> {
+        let Resolution { width, height } = self.resolution();
+        let row = |y: u16| {
+            let scanline = self.0.scanline(y);
+            (0..width).map(move |x| self.0.primary_ray(&scanline, x))
+        };
+        (0..height).flat_map(row).collect()
+    }
+
+    /// The colours of all pixels, row by row. Those of a preview are repeated.
+    pub(crate) fn colors(
+        &self,
+        sampling: Sampling,
+        preview: Detail,
+        workers: &Workers,
+    ) -> Vec<Color<T>> {
+        let mut colors = with_source!(self, sampling, |source|
+            adaptive: {
                 let mut colors = Vec::new();
-                draw(source, |color| colors.push(color));
+                draw(source, 1, |color| colors.push(color));
                 colors
-            }),
+            },
+            fixed: rows(source, workers));
+        if preview != Detail::Full {
+            let (width, block) = (
+                usize::from(self.resolution().width),
+                usize::from(preview.block()),
+            );
+            // What is overwritten lies behind what is read.
+            for at in 0..colors.len() {
+                let (x, y) = (at % width, at / width);
+                colors[at] = colors[(y - y % block) * width + (x - x % block)];
+            }
         }
+        colors
     }
 
     /// What the picture takes.
-    pub(crate) fn work(&self, sampling: Sampling, workers: &Workers) -> Work {
+    pub(crate) fn work(&self, sampling: Sampling, preview: Detail, workers: &Workers) -> Work {
         let Resolution { width, height } = self.resolution();
-        macro_rules! supersampled {
-            ($samples:literal) => {{
-                let source = Supersampled::<_, $samples>::new(self);
-                Work::count(width, 0..height, workers, |y, counter| {
-                    let scanlines = source.scanline(y);
-                    for x in 0..width {
-                        source.pixel_observed(&scanlines, x, counter);
-                    }
-                })
-            }};
-        }
-        match sampling {
-            Sampling::Fixed(samples) => match samples {
-                4 => supersampled!(4),
-                16 => supersampled!(16),
-                64 => supersampled!(64),
-                _ => supersampled!(1),
-            },
-            Sampling::Adaptive(denominator) => self.with_adaptive(denominator, |source| {
-                let mut counter = Counter::new();
-                for y in 0..height {
-                    let scanline = source.scanline(y);
-                    for x in 0..width {
-                        source.pixel_observed(&scanline, x, &mut counter);
-                    }
+        let block = preview.block();
+        let (samples, is_adaptive) = match sampling {
+            Sampling::Fixed(samples) => (u64::from(samples), false),
+            Sampling::Adaptive(_) => (Settings::ADAPTIVE_SAMPLES as u64, true),
+        };
+        // `Adaptive` has three more scanlines a row, for the centres.
+        let each = samples + if is_adaptive { 3 } else { 0 };
+        let circumstances = Circumstances {
+            has_cutoff: self.0.cutoff() > T::ZERO,
+            samples,
+            is_adaptive,
+            ..Circumstances::of(self.scene(), each * u64::from(height.div_ceil(block)))
+        };
+        let work = with_source!(self, sampling, |source|
+        // Its rows hand centres on, and are counted one after the other.
+        adaptive: {
+            let mut counter = Counter::new();
+            for y in 0..height {
+                let scanline = source.scanline(y);
+                for x in 0..width {
+                    source.pixel_observed(&scanline, x, &mut counter);
                 }
-                counter.finish(u64::from(width) * u64::from(height))
-            }),
-        }
+            }
+            counter.finish(u64::from(width) * u64::from(height))
+        },
+        fixed: Work::count(width, 0..height, workers, |y, counter| {
+            if y % block != 0 {
+                return;
+            }
+            let scanlines = source.scanline(y);
+            for x in (0..width).step_by(block.into()) {
+                source.pixel_observed(&scanlines, x, counter);
+            }
+        }));
+        work.under(&circumstances)
     }
 
     /// How long the picture takes.
-    pub(crate) fn time(&self, sampling: Sampling) -> HostTime {
-        let draw_all = |source: &dyn Fn()| HostTime::measure(source);
-        macro_rules! supersampled {
-            ($samples:literal) => {
-                draw_all(&|| {
-                    draw(&Supersampled::<_, $samples>::new(self), |color| {
-                        std::hint::black_box(color);
-                    })
-                })
-            };
-        }
-        match sampling {
-            Sampling::Fixed(samples) => match samples {
-                4 => supersampled!(4),
-                16 => supersampled!(16),
-                64 => supersampled!(64),
-                _ => supersampled!(1),
-            },
-            Sampling::Adaptive(denominator) => draw_all(&|| {
-                self.with_adaptive(denominator, |source| {
-                    draw(source, |color| {
-                        std::hint::black_box(color);
-                    });
-                });
-            }),
-        }
+    pub(crate) fn time(&self, sampling: Sampling, preview: Detail) -> HostTime {
+        let forget = |color| {
+            std::hint::black_box(color);
+        };
+        HostTime::measure(&|| {
+            with_source!(self, sampling, |source|
+                adaptive: draw(source, 1, forget),
+                fixed: draw(source, preview.block(), forget));
+        })
     }
 
     /// An adaptive source with room for two rows of centres, as a device would have.
@@ -158,12 +196,12 @@ fn rows<P: PixelSource + Sync>(source: &P, workers: &Workers) -> Vec<Color<P::Sc
     workers.install(|| (0..height).into_par_iter().flat_map_iter(row).collect())
 }
 
-/// The same on one thread.
-fn draw<P: PixelSource>(source: &P, mut take: impl FnMut(Color<P::Scalar>)) {
+/// The same on one thread, of each block its first pixel.
+pub(super) fn draw<P: PixelSource>(source: &P, block: u16, mut take: impl FnMut(Color<P::Scalar>)) {
     let Resolution { width, height } = source.resolution();
-    for y in 0..height {
+    for y in (0..height).step_by(block.into()) {
         let scanline = source.scanline(y);
-        for x in 0..width {
+        for x in (0..width).step_by(block.into()) {
             take(source.pixel_on(&scanline, x).0);
         }
     }

@@ -1,5 +1,7 @@
 //! `scanray report`.
 
+use std::io::Write as _;
+
 use crate::program::{Folder, SMALL_SCENE};
 
 #[test]
@@ -16,9 +18,11 @@ fn writes_page_markdown_csv_and_json() {
     for scene in scenes {
         assert_eq!(scene["size"], serde_json::json!([12, 9]));
         let configurations = scene["configurations"].as_array().unwrap();
-        for knob in scene["knobs"].as_array().unwrap() {
+        let knobs = scene["knobs"].as_array().unwrap();
+        assert_eq!(knobs.len(), 14);
+        for knob in knobs {
             let points = knob["points"].as_array().unwrap();
-            assert!(points.len() > 1, "{knob}");
+            assert!(points.len() > 1 || knob["core"].is_string(), "{knob}");
             for point in points {
                 let index = point[1].as_u64().unwrap() as usize;
                 assert!(index < configurations.len());
@@ -53,13 +57,13 @@ fn writes_page_markdown_csv_and_json() {
         ["1", "0", "squaring", "rgb888", "false"].map(Some)
     );
     let settings = &scenes[0]["configurations"][0]["settings"];
-    assert_eq!(settings.as_object().unwrap().len(), 7);
+    assert_eq!(settings.as_object().unwrap().len(), 9);
 
     let markdown = text("report.md");
     let page = text("index.html");
     for name in ["a", "b"] {
         assert!(markdown.contains(&format!("## {name} (12×9)")));
-        assert!(page.contains(&format!("<section id=\"{name}\">")));
+        assert!(page.contains(&format!("<section id=\"scene-{name}\">")));
     }
     for plot in markdown.lines().filter(|line| line.starts_with("![")) {
         let (_, file) = plot.rsplit_once('(').unwrap();
@@ -82,6 +86,132 @@ fn writes_page_markdown_csv_and_json() {
 }
 
 #[test]
+fn scenes_of_one_name_stay_apart() {
+    let folder = Folder::new();
+    for (name, red) in [("x y/a.txt", "1"), ("z/a.txt", ".5"), ("method.txt", ".2")] {
+        std::fs::create_dir_all(folder.path(name).parent().unwrap()).unwrap();
+        folder.write(name, SMALL_SCENE.replace(".8 .2 .2", &format!("{red} 0 0")));
+    }
+    folder.succeed(&[
+        "report",
+        "x y/a.txt",
+        "z/a.txt",
+        "z/a.txt",
+        "method.txt",
+        "-o",
+        "out",
+        "--size",
+        "4x3",
+    ]);
+    let text = |name: &str| String::from_utf8(folder.read(&format!("out/{name}"))).unwrap();
+    let (markdown, page) = (text("report.md"), text("index.html"));
+    let mut ids: Vec<_> = page.split("<section id=\"").skip(1).collect();
+    ids.iter_mut()
+        .for_each(|rest| *rest = rest.split_once('"').unwrap().0);
+    assert_eq!(
+        ids,
+        [
+            "scene-x-y-a-txt",
+            "scene-z-a-txt",
+            "scene-z-a-txt-2",
+            "scene-method",
+            "method"
+        ]
+    );
+    for id in ids {
+        assert!(page.contains(&format!("href=\"#{id}\"")), "{id}");
+    }
+    let links = markdown.lines().filter(|line| line.starts_with("!["));
+    let files: std::collections::BTreeSet<_> = links
+        .map(|line| line.rsplit_once('(').unwrap().1.trim_end_matches(')'))
+        .collect();
+    assert_eq!(files.len(), 4 * 3);
+    for file in files {
+        assert!(!file.contains([' ', '%', '/']), "{file}");
+        assert!(text(file).starts_with("<svg "), "{file}");
+    }
+}
+
+#[test]
+fn settings_that_change_nothing_are_not_worth_having() {
+    let folder = Folder::new();
+    // A sky, and nothing that could be turned.
+    folder.write(
+        "sky.txt",
+        "0\n0 0 0\n4 3\n0 9 0 1 1 1 1 1 1\n.2\n1\n0 0 0\n",
+    );
+    folder.succeed(&[
+        "report", "sky.txt", "-o", "out", "--size", "4x3", "--only", "json",
+    ]);
+    let json: serde_json::Value = serde_json::from_slice(&folder.read("out/report.json")).unwrap();
+    let verdict = |name: &str| {
+        let configurations = json["scenes"][0]["configurations"].as_array().unwrap();
+        let found = configurations.iter().find(|c| c["name"] == name);
+        found.unwrap_or_else(|| panic!("{name}"))["verdict"].to_string()
+    };
+    for name in ["depth 1", "depth 16", "polynomial power"] {
+        assert!(
+            verdict(name).contains("equal-to"),
+            "{name}: {}",
+            verdict(name)
+        );
+    }
+    assert_eq!(verdict("default"), "\"best\"");
+}
+
+#[test]
+fn instructions_are_counted_where_there_is_an_emulator() {
+    let folder = Folder::new();
+    folder.write("a.txt", SMALL_SCENE);
+    let run = folder.run(&[
+        "report",
+        "a.txt",
+        "-o",
+        "out",
+        "--size",
+        "8x6",
+        "--emulate=m4f",
+        "--threads",
+        "2",
+    ]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let text = |name: &str| String::from_utf8(folder.read(&format!("out/{name}"))).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&text("report.json")).unwrap();
+    let configurations = json["scenes"][0]["configurations"].as_array().unwrap();
+    if let Some(why) = json["emulation"]["missing"].as_str() {
+        // The columns say so, and why.
+        assert!(run.stderr.contains(why), "{}", run.stderr);
+        assert!(text("report.md").contains(why) && text("report.md").contains("M4F (model)"));
+        assert!(text("index.html").contains("M0, instructions per pixel (model)"));
+        // Not `println`, which the test harness keeps to itself.
+        let _ = writeln!(std::io::stderr(), "skipped: {why}");
+        return;
+    }
+    assert_eq!(
+        json["emulation"]["counted"]["failures"],
+        serde_json::json!([])
+    );
+    let find = |name: &str| configurations.iter().find(|c| c["name"] == name).unwrap();
+    let counted = |name: &str| find(name)["instructions_emulated"][0].as_f64().unwrap();
+    for configuration in configurations {
+        // Whatever a device can have, and on the core that was asked for.
+        assert_eq!(
+            configuration["instructions_emulated"][0].is_number(),
+            configuration["instructions_by_model"].is_array(),
+            "{configuration}"
+        );
+        assert!(configuration["instructions_emulated"][1].is_null());
+    }
+    let [one, four] = ["default", "4 samples"].map(counted);
+    assert!((3.5..5.5).contains(&(four / one)), "{one}, {four}");
+    assert!(counted("depth 0") < one);
+    assert!(counted("quarter preview") < counted("half preview"));
+    assert!(counted("half preview") < one);
+    assert!(text("index.html").contains("M4F, instructions per pixel (emulated)"));
+    assert!(text("report.md").contains("M4F (emulated) | M3 (model)"));
+}
+
+#[test]
 fn writes_only_what_is_wanted() {
     let folder = Folder::new();
     folder.write("a.txt", SMALL_SCENE);
@@ -98,9 +228,14 @@ fn refuses_what_it_cannot_measure() {
     folder.write("bad.txt", "0\n0 0\n");
     let words = folder.fail(3, &["report", "bad.txt", "-o", "out"]);
     assert!(words.contains("bad.txt:2"), "{words}");
-    assert!(!folder.path("out/index.html").exists());
+    // Before anything is measured, and before the folder is made.
+    folder.write("good.txt", SMALL_SCENE);
+    let words = folder.fail(3, &["report", "good.txt", "bad.txt", "-o", "out"]);
+    assert!(words.contains("bad.txt:2"), "{words}");
+    assert!(!folder.path("out").exists());
     folder.write("file", "");
     folder.fail(4, &["report", "-o", "file", "--size", "4x3"]);
     let words = folder.fail(2, &["report", "-o", "out", "--size", "9000x3"]);
     assert!(words.contains("--size"), "{words}");
+    assert!(!folder.path("out").exists());
 }
