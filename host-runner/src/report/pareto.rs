@@ -29,6 +29,11 @@ impl Point {
     fn matches(&self, other: &Self) -> bool {
         no_more(self.cost, other.cost) && no_more(self.error, other.error)
     }
+
+    /// Whether they differ by less than 1 % in both.
+    pub(crate) fn equals(&self, other: &Self) -> bool {
+        self.matches(other) && other.matches(self)
+    }
 }
 
 /// How each point stands. A point is on the front if its error is by more than 1 % less than that of all that cost
@@ -44,7 +49,7 @@ pub(crate) fn standings(points: &[Point]) -> Vec<Standing> {
         match front.last_mut() {
             Some(last) if points[*last].matches(&points[index]) => {
                 // Of equals the first.
-                if points[index].matches(&points[*last]) {
+                if points[index].equals(&points[*last]) {
                     *last = index.min(*last);
                 }
             }
@@ -58,7 +63,7 @@ pub(crate) fn standings(points: &[Point]) -> Vec<Standing> {
         let point = &points[index];
         let better = front.iter().copied().filter(|i| points[*i].matches(point));
         match better.min_by(|a, b| points[*a].error.total_cmp(&points[*b].error)) {
-            Some(other) if point.matches(&points[other]) => Standing::EqualTo(other),
+            Some(other) if point.equals(&points[other]) => Standing::EqualTo(other),
             Some(other) => Standing::DominatedBy(other),
             None => Standing::OnFront,
         }

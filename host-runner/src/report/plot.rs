@@ -65,7 +65,7 @@ pub(crate) fn svg(
     let errors =
         range(all().map(|mark| mark.error).filter(|error| *error > 0.0)).unwrap_or((1e-3, 1.0));
     let rows = lines.len().div_ceil(2) as u32 + 1;
-    let height = CHART_HEIGHT + (rows + 1) * LEGEND_ROW + 4;
+    let height = CHART_HEIGHT + rows * LEGEND_ROW + 4;
     let axis = cost.label(emulation);
 
     let mut svg = String::new();
@@ -223,11 +223,12 @@ impl Drawing {
             _ => {}
         }
         self.svg.push_str(&shape(index, x, y, &color, fill));
-        // Of several labels in one place the first is enough.
-        let is_free = self
-            .labels
-            .iter()
-            .all(|(a, b)| (a - x).abs() > 22 || (b - y).abs() > 11);
+        // Of several labels in one place the first is enough, and long ones are for the cursor.
+        let is_free = mark.label.len() < 12
+            && self
+                .labels
+                .iter()
+                .all(|(a, b)| (a - x).abs() > 22 || (b - y).abs() > 11);
         if is_free {
             self.labels.push((x, y));
             let (anchor, dx) = if x > WIDTH as i32 - 70 {
@@ -275,7 +276,7 @@ impl Drawing {
         text(last, "Pareto front of this plot");
         text(
             (last.0 + 190, last.1),
-            "error 0: lower edge; no cost: right edge",
+            "hollow: error 0, or no cost",
         );
         for index in 0..knobs.len() {
             let (x, y) = place(index);

@@ -335,16 +335,31 @@ pub(crate) fn judge(configurations: &mut [Configuration]) {
             ));
         }
     }
-    let cost = Cost::Instructions(Core::M4f);
-    let standings = front(configurations, cost, Measure::Total);
-    for (configuration, standing) in configurations.iter_mut().zip(standings) {
-        if let Some(standing) = standing {
-            configuration.verdict = match standing {
-                Standing::OnFront => Verdict::Best,
-                Standing::EqualTo(other) => Verdict::EqualTo(other),
-                Standing::DominatedBy(other) => Verdict::DominatedBy(other),
-            };
-        }
+    let (cost, measure) = (Cost::Instructions(Core::M4f), Measure::Total);
+    let point = |configuration: &Configuration| {
+        let cost = cost.of(configuration)?;
+        let error = measure.of(configuration);
+        Some(Point { cost, error })
+    };
+    let is_default = |c: &Configuration| c.settings == Settings::DEFAULT;
+    let default = configurations.iter().position(is_default);
+    let default = default.and_then(|index| Some((index, point(&configurations[index])?)));
+    let standings = front(configurations, cost, measure);
+    for (index, standing) in standings.into_iter().enumerate() {
+        let configuration = &configurations[index];
+        // What changes nothing is told, even where both are dominated.
+        let as_default = default.filter(|(other, of_default)| {
+            *other != index
+                && configuration.settings.same_display(&Settings::DEFAULT)
+                && point(configuration).is_some_and(|own| own.equals(of_default))
+        });
+        configurations[index].verdict = match (standing, as_default) {
+            (None, _) => continue,
+            (Some(_), Some((default, _))) => Verdict::EqualTo(default),
+            (Some(Standing::OnFront), None) => Verdict::Best,
+            (Some(Standing::EqualTo(other)), None) => Verdict::EqualTo(other),
+            (Some(Standing::DominatedBy(other)), None) => Verdict::DominatedBy(other),
+        };
     }
 }
 
