@@ -23,7 +23,6 @@ use crate::scene_file::SceneSource;
 Examples:
   scanray report scene.txt --size 96x64 -o small     small/index.html and other forms
   scanray report scene.txt --size 96x64 --only csv   the figures alone, as report/report.csv
-  scanray report scene.txt --size 24x16 --emulate    instructions counted on emulated boards
 
 Several scenes become one report: scanray report scenes/*.txt. The page needs no network. Errors are measured against \
 the scene in f64 and with 256 samples a pixel; instructions are predicted for Cortex-M4F, M3 and M0, or counted with --emulate. How \

@@ -210,7 +210,7 @@ impl Answer {
         let dither = if args.dither { ", dithered" } else { "" };
         writeln!(
             out,
-            "{}, {}×{} in {}{dither}, on {} at {} MHz with {} wait states, {} ms a picture:",
+            "{}, {}×{} in {}{dither}, on {} at {} MHz with {} wait states, {} a picture:",
             self.scene,
             size.width,
             size.height,
@@ -218,7 +218,7 @@ impl Answer {
             self.target,
             self.clock_hz / 1e6,
             self.wait_states,
-            rounded(self.budget_ms)
+            duration(self.budget_ms)
         )?;
         let Tuned {
             best,
@@ -270,7 +270,7 @@ fn line(out: &mut dyn Write, what: &str, choice: &Choice) -> io::Result<()> {
     } = choice;
     writeln!(
         out,
-        "  {what:<15} max depth {}, {}, {}: error {}, {} M instructions, {} to {} ms",
+        "  {what:<15} max depth {}, {}, {}: error {}, {} instructions, {} to {}",
         settings.max_depth,
         match settings.cutoff {
             Some(of) => format!("cut-off 1/{of}"),
@@ -278,9 +278,9 @@ fn line(out: &mut dyn Write, what: &str, choice: &Choice) -> io::Result<()> {
         },
         settings.sampling,
         rounded(*error),
-        rounded(instructions / 1e6),
-        rounded(milliseconds.least),
-        rounded(milliseconds.most)
+        rounded(*instructions),
+        duration(milliseconds.least),
+        duration(milliseconds.most)
     )
 }
 
@@ -307,6 +307,19 @@ fn code(settings: &Settings) -> String {
     }
 }
 
+/// Milliseconds in a unit that leaves few digits.
+fn duration(milliseconds: f64) -> String {
+    let (unit, name) = match milliseconds {
+        ..1.0 => (1e-3, "µs"),
+        ..1e4 => (1.0, "ms"),
+        ..6e5 => (1e3, "s"),
+        ..3.6e7 => (6e4, "min"),
+        ..8.64e8 => (3.6e6, "h"),
+        _ => (8.64e7, "days"),
+    };
+    format!("{} {name}", rounded(milliseconds / unit))
+}
+
 /// Three digits that count.
 fn rounded(number: f64) -> String {
     crate::report::number(number)
@@ -328,6 +341,15 @@ mod tests {
         ] {
             assert_eq!(hertz(word), None, "{word}");
         }
+    }
+
+    #[test]
+    fn durations_are_readable() {
+        let words = [0.25, 17.04, 2500.0, 59_900.0, 5.99e6, 5.99e8, 5.99e10].map(duration);
+        let expected = [
+            "250 µs", "17 ms", "2500 ms", "59.9 s", "99.8 min", "166 h", "693 days",
+        ];
+        assert_eq!(words, expected);
     }
 
     #[test]
