@@ -130,13 +130,12 @@ impl<'a, T: Scalar> Textbook<'a, T> {
                 let seen = self.radiance_at(&Ray::new(outside, mirrored), depth + 1, effort);
                 color = color + seen * material.reflection;
             }
-            if material.refraction > T::ZERO {
-                if let Some(refracted) =
+            if material.refraction > T::ZERO
+                && let Some(refracted) =
                     hit.refracted(ray.direction, normal, entering, self.has_robust_shapes)
-                {
-                    let seen = self.radiance_at(&Ray::new(inside, refracted), depth + 1, effort);
-                    color = color + seen * material.refraction;
-                }
+            {
+                let seen = self.radiance_at(&Ray::new(inside, refracted), depth + 1, effort);
+                color = color + seen * material.refraction;
             }
         }
         color.clamp()

@@ -34,11 +34,18 @@ pub(crate) const SAMPLES_A_SIDE: u16 = 16;
 /// Samples a pixel of R2.
 pub(crate) const SAMPLES: u32 = SAMPLES_A_SIDE as u32 * SAMPLES_A_SIDE as u32;
 
+/// R1 of a way of sampling.
+struct R1 {
+    sampling: Sampling,
+    preview: Detail,
+    picture: Arc<Linear>,
+}
+
 /// The references of a scene.
 pub(crate) struct References<'a> {
     tracer: ReportTracer<'a, f64>,
     /// R1 of each way of sampling that was asked for.
-    r1: Mutex<Vec<((Sampling, Detail), Arc<Linear>)>>,
+    r1: Mutex<Vec<R1>>,
     /// Many samples a pixel, and the same in greys.
     pub(crate) r2: Linear,
     r2_in_greys: Linear,
@@ -90,13 +97,18 @@ impl<'a> References<'a> {
     /// R1 of a way of sampling.
     pub(crate) fn r1(&self, sampling: Sampling, preview: Detail, workers: &Workers) -> Arc<Linear> {
         let mut known = self.r1.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, r1)) = known.iter().find(|(of, _)| *of == (sampling, preview)) {
-            return r1.clone();
+        let is_same = |r1: &&R1| r1.sampling == sampling && r1.preview == preview;
+        if let Some(r1) = known.iter().find(is_same) {
+            return r1.picture.clone();
         }
         let colors = self.tracer.colors(sampling, preview, workers);
-        let r1 = Arc::new(Linear::new(self.tracer.resolution(), &colors));
-        known.push(((sampling, preview), r1.clone()));
-        r1
+        let picture = Arc::new(Linear::new(self.tracer.resolution(), &colors));
+        known.push(R1 {
+            sampling,
+            preview,
+            picture: picture.clone(),
+        });
+        picture
     }
 }
 

@@ -87,6 +87,6 @@ fn polynomial<T: Scalar>(material: &Material<T>) -> Material<T> {
         material.inverse_index(),
         material.bend(),
         Material::<T>::FRACTIONAL,
-        0,
+        material.faint_alignment(),
     )
 }
