@@ -17,8 +17,12 @@ impl<T: Scalar> Background<T> {
     /// The sky in a direction of length 1: white at the nadir, (½, 0.7, 1) at the zenith.
     #[inline(always)]
     pub fn sky(direction: Vec3<T>) -> Color<T> {
-        let s = T::HALF * (direction.y + T::ONE);
-        let white = T::ONE - s;
-        Color::new(white + s * T::HALF, white + s * T::from_f64(0.7), white + s)
+        let s = direction.y.plus(T::ONE).halve();
+        let white = T::ONE.minus(s);
+        Color::new(
+            white.plus(s.halve()),
+            white.plus(s.times(T::from_f64(0.7))),
+            white.plus(s),
+        )
     }
 }

@@ -106,13 +106,13 @@ pub trait Scalar:
         let mut power = Self::ONE;
         loop {
             if exponent & 1 != 0 {
-                power = power * base;
+                power = power.times(base);
             }
             exponent >>= 1;
             if exponent == 0 {
                 return power;
             }
-            base = base * base;
+            base = base.times(base);
         }
     }
 
@@ -201,6 +201,12 @@ pub trait Scalar:
     #[inline(always)]
     fn plus(self, other: Self) -> Self {
         self + other
+    }
+
+    /// `self − other`: for those differences of which there are many.
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        self - other
     }
 
     /// The larger of two numbers; the other one when `self` is NaN.
@@ -431,6 +437,15 @@ impl Scalar for f32 {
             soft_float::add(self, other)
         } else {
             self + other
+        }
+    }
+
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        if Self::EMULATED {
+            soft_float::add(self, -other)
+        } else {
+            self - other
         }
     }
 

@@ -127,7 +127,7 @@ pub(crate) fn multiply(x: f32, y: f32) -> f32 {
     let exponent = (x_exponent + y_exponent).wrapping_sub(BIAS);
     let is_ordinary = |exponent: u32| exponent.wrapping_sub(1) < 253;
     if !(is_ordinary(x_exponent) && is_ordinary(y_exponent) && is_ordinary(exponent)) {
-        return x * y;
+        return multiply_extremes(x_bits, y_bits);
     }
     let significand = |bits: u32| bits & ((1 << FRACTION_BITS) - 1) | 1 << FRACTION_BITS;
     let (x, y) = (significand(x_bits), significand(y_bits));
@@ -147,6 +147,20 @@ pub(crate) fn multiply(x: f32, y: f32) -> f32 {
     let up = (rest | high & 1) > SIGN;
     let magnitude = (exponent << FRACTION_BITS) + high + u32::from(up);
     f32::from_bits((x_bits ^ y_bits) & SIGN | magnitude)
+}
+
+/// [`multiply`] where a factor or the product may be none of the normal numbers.
+// A function, so that the other way through the caller keeps no registers for the call; of bits, which LLVM does not
+// compare as floats.
+#[cold]
+#[inline(never)]
+fn multiply_extremes(x: u32, y: u32) -> f32 {
+    // Black is common.
+    if (x << 1 == 0 || y << 1 == 0) && exponent(x) < 255 && exponent(y) < 255 {
+        f32::from_bits((x ^ y) & SIGN)
+    } else {
+        f32::from_bits(x) * f32::from_bits(y)
+    }
 }
 
 /// The product of two significands, which has 47 or 48 bits: the upper ones, and 24 below them at the upper end of a word.
@@ -177,7 +191,7 @@ pub(crate) fn add(x: f32, y: f32) -> f32 {
     }
     let (large_exponent, small_exponent) = (exponent(large), exponent(small));
     if small_exponent == 0 || large_exponent >= 254 {
-        return x + y;
+        return add_extremes(x.to_bits(), y.to_bits());
     }
     // The leading bit has one above it, for the carry, and 7 bits follow.
     let significand = |bits: u32| (bits << 7 | 1 << 30) & !SIGN;
@@ -203,7 +217,7 @@ pub(crate) fn add(x: f32, y: f32) -> f32 {
         let zeros = leading_zeros(sum);
         sum <<= zeros;
         if exponent <= zeros {
-            return x + y;
+            return add_extremes(x.to_bits(), y.to_bits());
         }
         exponent -= zeros;
     }
@@ -211,6 +225,20 @@ pub(crate) fn add(x: f32, y: f32) -> f32 {
     let up = (sum & 0xff | sum >> 8 & 1) > 0x80;
     let magnitude = (exponent << FRACTION_BITS) + (sum >> 8) + u32::from(up);
     f32::from_bits(large & SIGN | magnitude)
+}
+
+/// [`add`] where a summand or the sum may be none of the normal numbers.
+#[cold]
+#[inline(never)]
+fn add_extremes(x: u32, y: u32) -> f32 {
+    // So are cameras at 0.
+    if y << 1 == 0 && x << 1 != 0 {
+        f32::from_bits(x)
+    } else if x << 1 == 0 && y << 1 != 0 {
+        f32::from_bits(y)
+    } else {
+        f32::from_bits(x) + f32::from_bits(y)
+    }
 }
 
 /// The number of zeros above the highest one, of which there is one.

@@ -100,7 +100,7 @@ impl<T: Scalar> Vec3<T> {
                     Axis::X => &mut moved.x,
                     Axis::Y => &mut moved.y,
                     Axis::Z => &mut moved.z,
-                } = value + distance.with_sign_of(one);
+                } = value.plus(distance.with_sign_of(one));
                 return moved;
             }
         }
@@ -164,7 +164,7 @@ impl<T: Scalar> Vec3<T> {
         if T::EMULATED && square.is_one() {
             return self;
         }
-        self * (T::THREE_HALVES - square.halve())
+        self * (T::THREE_HALVES.minus(square.halve()))
     }
 
     /// The mirror direction of the unit vector `self` at a surface with unit normal `normal`.
@@ -195,13 +195,13 @@ impl<T: Scalar> Vec3<T> {
     /// [`Vec3::refract`] where `cosine = −self·normal` is known.
     #[inline]
     pub(crate) fn refract_at(self, normal: Self, cosine: T, eta: T, bend: T) -> Option<Self> {
-        let k = cosine * cosine + bend;
+        let k = cosine.times(cosine).plus(bend);
         // NaN counts as total reflection, so that no direction without a length leaves here.
         if !k.is_zero_or_positive() {
             return None;
         }
-        let direction = (self + normal * (cosine - k.sqrt())) * eta;
-        let drift = (direction.dot(direction) - T::ONE).abs();
+        let direction = (self + normal * (cosine.minus(k.sqrt()))) * eta;
+        let drift = direction.dot(direction).minus(T::ONE).abs();
         if drift.is_before(T::EPSILON * T::from_i32(256)) {
             Some(direction.renormalize())
         } else {
@@ -229,9 +229,9 @@ impl<T: Scalar> Sub for Vec3<T> {
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
         Self::new(
-            self.x.plus(-other.x),
-            self.y.plus(-other.y),
-            self.z.plus(-other.z),
+            self.x.minus(other.x),
+            self.y.minus(other.y),
+            self.z.minus(other.z),
         )
     }
 }

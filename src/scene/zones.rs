@@ -52,7 +52,10 @@ impl<T: Scalar> Zones<T> {
     pub(crate) fn zone(&self, place: Vec3<T>) -> Option<Zone<'_>> {
         let [u, v] = across(self.normal_axis, place);
         let strip = |axis: usize, coordinate: T| {
-            let index = ((coordinate - self.low[axis]) * self.density[axis]).to_i32();
+            let index = coordinate
+                .minus(self.low[axis])
+                .times(self.density[axis])
+                .to_i32();
             self.strips[axis].get(index as usize)
         };
         Some(Zone {

@@ -70,7 +70,7 @@ impl<T: Scalar> Plane<T> {
     /// [`Plane::intersect`] without a limit; the distance may be infinite.
     #[inline(always)]
     pub(crate) fn meet(&self, ray: &Ray<T>) -> Option<T> {
-        let below = self.height - ray.origin.component_along(self.normal);
+        let below = self.height.minus(ray.origin.component_along(self.normal));
         let slope = ray.direction.component_along(self.normal);
         if T::EMULATED && below.is_negative() != slope.is_negative() {
             return None;
@@ -92,7 +92,7 @@ impl<T: Scalar> Plane<T> {
     pub fn surface_point(&self, ray: &Ray<T>, t: T) -> SurfacePoint<T> {
         let n = self.normal;
         let approximate = ray.at(t);
-        let above = approximate.component_along(n) - self.height;
+        let above = approximate.component_along(n).minus(self.height);
         let point = approximate.moved_along(n, -above);
         let components = point.abs().component_along(n.abs());
         SurfacePoint {

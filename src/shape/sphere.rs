@@ -120,10 +120,10 @@ impl<T: Scalar> Sphere<T> {
         let f = self.center - ray.origin;
         let b = f.dot(ray.direction);
         let l = f - ray.direction * b;
-        let discriminant = self.radius_squared - l.dot(l);
+        let discriminant = self.radius_squared.minus(l.dot(l));
         if discriminant.is_zero_or_positive() {
             let half_chord = discriminant.sqrt();
-            Some((b - half_chord, b + half_chord))
+            Some((b.minus(half_chord), b.plus(half_chord)))
         } else {
             None
         }

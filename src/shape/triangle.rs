@@ -151,8 +151,10 @@ impl<T: Scalar> Triangle<T> {
         let f = self.ball_center - ray.origin;
         let b = f.dot(ray.direction);
         let l = f - ray.direction * b;
-        l.dot(l)
-            .is_up_to(self.ball_radius_squared + ball_slack::<T>() * (b * b))
+        l.dot(l).is_up_to(
+            self.ball_radius_squared
+                .plus(ball_slack::<T>().times(b.times(b))),
+        )
     }
 
     /// Distance and place of the crossing within `0 < t ≤ t_max`.
@@ -192,7 +194,11 @@ impl<T: Scalar> Triangle<T> {
         let (shear_x, shear_y) = (d.x / d.z, d.y / d.z);
         let shear = |vertex: Vec3<T>| {
             let v = turn.apply(vertex - origin);
-            Vec3::new(v.x - shear_x * v.z, v.y - shear_y * v.z, scale * v.z)
+            Vec3::new(
+                v.x.minus(shear_x.times(v.z)),
+                v.y.minus(shear_y.times(v.z)),
+                scale.times(v.z),
+            )
         };
         let [v1, v2, v3] = self.vertices;
         let (a, b, c) = (shear(v1), shear(v2), shear(v3));
@@ -273,7 +279,7 @@ impl Turn {
 /// rounded products has it unless it is 0, because rounding is monotonic.
 #[inline(always)]
 fn edge<T: Scalar>(p: Vec3<T>, q: Vec3<T>) -> T {
-    let difference = p.x * q.y - p.y * q.x;
+    let difference = p.x.times(q.y).minus(p.y.times(q.x));
     if difference.is_zero() {
         exact_edge(p, q)
     } else {

@@ -58,7 +58,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                     continue;
                 }
             }
-            let cosine = toward * inverse;
+            let cosine = toward.times(inverse);
             // Light first, then material: a factor ≤ 1 keeps the product finite, so that 0·∞ cannot
             // arise from bright lights on bright materials.
             let diffuse = light.diffuse * cosine * material.diffuse;
@@ -66,7 +66,10 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             let mut specular = None;
             if stage(NEEDS, Needs::SPECULAR) && !material.specular.is_black() {
                 // R·V with R = 2(N·L)N − L and V = −d.
-                let alignment = cosine.double() * hit.cosine + direction.dot(ray.direction);
+                let alignment = cosine
+                    .double()
+                    .times(hit.cosine)
+                    .plus(direction.dot(ray.direction));
                 if alignment.upper_half() >= hit.material.faint_alignment()
                     && alignment.is_positive()
                 {
