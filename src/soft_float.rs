@@ -189,42 +189,42 @@ pub(crate) fn add(x: f32, y: f32) -> f32 {
     if large << 1 < small << 1 {
         (large, small) = (small, large);
     }
-    let (large_exponent, small_exponent) = (exponent(large), exponent(small));
-    if small_exponent == 0 || large_exponent >= 254 {
+    let large_exponent = exponent(large);
+    // Far enough from both ends for whatever cancels and carries.
+    if !(32..254).contains(&large_exponent) {
         return add_extremes(x.to_bits(), y.to_bits());
+    }
+    let distance = large_exponent - exponent(small);
+    // Less than half a unit in the last place, whatever the sign; 0 and subnormal numbers among them.
+    if distance > 25 {
+        return f32::from_bits(large);
     }
     // The leading bit has one above it, for the carry, and 7 bits follow.
     let significand = |bits: u32| (bits << 7 | 1 << 30) & !SIGN;
     let (a, b) = (significand(large), significand(small));
     // Of what is shifted out the lowest bit remembers that there was something.
-    let distance = (large_exponent - small_exponent).min(31);
     let shifted = b >> distance;
     let b = shifted | u32::from(shifted << distance != b);
-    let mut exponent = large_exponent;
+    let mut sign_and_exponent = large & !((1 << FRACTION_BITS) - 1);
     let mut sum;
     if (large ^ small) & SIGN == 0 {
         sum = a + b;
-        // Lead with the highest bit.
-        if sum & SIGN == 0 {
-            sum <<= 1;
-            exponent -= 1;
+        if sum & SIGN != 0 {
+            sum = sum >> 1 | sum & 1;
+            sign_and_exponent += 1 << FRACTION_BITS;
         }
     } else {
         sum = a - b;
         if sum == 0 {
             return 0.0;
         }
-        let zeros = leading_zeros(sum);
+        let zeros = leading_zeros(sum) - 1;
         sum <<= zeros;
-        if exponent <= zeros {
-            return add_extremes(x.to_bits(), y.to_bits());
-        }
-        exponent -= zeros;
+        sign_and_exponent -= zeros << FRACTION_BITS;
     }
-    // To the nearest, of two to the even one. The leading bit adds 1 to the exponent.
-    let up = (sum & 0xff | sum >> 8 & 1) > 0x80;
-    let magnitude = (exponent << FRACTION_BITS) + (sum >> 8) + u32::from(up);
-    f32::from_bits(large & SIGN | magnitude)
+    // To the nearest, of two to the even one.
+    let rounded = sum - (1 << 30) + 0x3f + (sum >> 7 & 1);
+    f32::from_bits(sign_and_exponent + (rounded >> 7))
 }
 
 /// [`add`] where a summand or the sum may be none of the normal numbers.
