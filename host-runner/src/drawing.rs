@@ -129,7 +129,9 @@ where
         let mut canvas = Canvas::new(width, top, rows);
         let (picture, progress) = (&self.picture, self.progress);
         self.workers.0.install(|| {
-            canvas.bands(BAND_ROWS).for_each(|mut band| {
+            // Left to itself rayon hands out quarters of a picture, one of which may take longer than the others.
+            let bands = canvas.bands(BAND_ROWS).with_max_len(1);
+            bands.for_each(|mut band| {
                 let Ok(()) = picture.draw(&mut band);
                 progress.advance(band.rows());
             });

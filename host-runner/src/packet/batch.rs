@@ -5,6 +5,7 @@ use std::ops::Range;
 use fearless_simd::prelude::*;
 
 use super::lanes::{Indices, LANES, Mask, Numbers, Rays, Vec3s};
+use super::tree::WaitingParts;
 
 /// Rays that a batch holds.
 pub(super) const CAPACITY: usize = 512;
@@ -140,6 +141,8 @@ pub(super) struct Batch {
     /// The rays that meet something, object by object.
     order: Column<u32>,
     pub(super) groups: Vec<Group>,
+    /// For single rays in a scene with a tree.
+    pub(super) waiting: WaitingParts,
 }
 
 impl Batch {
@@ -160,6 +163,7 @@ impl Batch {
             lit: column(),
             order: column(),
             groups: Vec::new(),
+            waiting: WaitingParts::new(),
         }
     }
 

@@ -48,7 +48,7 @@ pub(crate) struct PacketTracer<'a, const STACK: usize> {
     /// All objects, in the order of their numbers.
     objects: Vec<Target<'a>>,
     /// Of a large scene.
-    tree: PacketTree,
+    tree: Option<PacketTree>,
     /// Of threads that do not trace at the moment.
     idle: Mutex<Vec<Workspace>>,
 }
@@ -97,7 +97,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
             planes: Vec::with_capacity(scene.planes.len()),
             triangles: Vec::with_capacity(scene.triangles.len()),
             objects: Vec::with_capacity(scene.object_count()),
-            tree: PacketTree::default(),
+            tree: None,
             idle: Mutex::default(),
         };
         for (index, object) in (0..).zip(scene.objects()) {
@@ -125,7 +125,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
                 near: sides.map(Reach::near_in_any_direction),
             });
         }
-        packets.tree = PacketTree::new(&packets);
+        packets.tree = PacketTree::new(&packets, tree::FEWEST_FOR_SINGLES);
         packets
     }
 
@@ -147,7 +147,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
     /// The linear colours at a place in pixels of a row: those of `Tracer::sample_observed`.
     pub(crate) fn sample_row(&self, places: SampleRow, colors: &mut [Color]) {
         let scene = self.tracer.scene();
-        if scene.tree.is_some() && scene.lights.len() > MOST_LIGHTS {
+        if scene.tree.is_some() && (self.tree.is_none() || scene.lights.len() > MOST_LIGHTS) {
             return self.row_by_core(places, colors);
         }
         #[cfg(target_arch = "x86_64")]
@@ -254,19 +254,24 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
                 let Some((batch, below)) = batches.split_first_mut() else {
                     return;
                 };
-                let has_tree = self.tracer.scene().tree.is_some();
                 let mut at = 0;
                 while at < batch.len {
-                    at += if has_tree {
-                        self.meet_by_tree(simd, batch, at)
-                    } else {
-                        self.meet(simd, batch, at, visible)
+                    at += match &self.tree {
+                        Some(tree) if tree.has_singles() => {
+                            self.meet_by_tree::<S, true>(simd, tree, batch, at)
+                        }
+                        Some(tree) => self.meet_by_tree::<S, false>(simd, tree, batch, at),
+                        None => self.meet(simd, batch, at, visible),
                     };
                 }
                 batch.group(counts);
                 let groups = std::mem::take(&mut batch.groups);
-                if has_tree {
-                    self.cast_shadows(simd, batch, &groups);
+                if let Some(tree) = &self.tree {
+                    if tree.has_singles() {
+                        self.cast_shadows::<S, true>(simd, tree, batch, &groups);
+                    } else {
+                        self.cast_shadows::<S, false>(simd, tree, batch, &groups);
+                    }
                 }
                 for group in &groups {
                     for start in group.range.clone().step_by(LANES) {

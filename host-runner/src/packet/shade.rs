@@ -125,7 +125,7 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                 origin: hits.outside,
                 direction: to_light * inverse,
             };
-            if scene.tree.is_some() {
+            if self.tree.is_some() {
                 // `cast_shadows` has found it out.
                 lit &= batch.lit(simd, of, number);
             } else {

@@ -11,12 +11,13 @@ use scanray::{
 };
 
 use super::PacketTracer;
+use super::tree::PacketTree;
 use crate::host_tracer::SampleRow;
 
 type Pools = ScenePools<f32, 64, 64, 64, 192, 4, 192, 128>;
 
 /// That of the host, so that everything is compiled once.
-const STACK: usize = crate::host_tracer::MAX_DEPTH;
+pub(super) const STACK: usize = crate::host_tracer::MAX_DEPTH;
 
 /// The levels of this machine, the scalar one included where there is one.
 fn levels() -> Vec<Level> {
@@ -46,28 +47,52 @@ fn places(x: u16, y: u16) -> SampleRow {
 
 /// Compares rows of a picture with the core's pixels.
 fn assert_same(name: &str, scene: Scene<'_>, width: u16, height: u16, max_depth: usize) {
-    let tracer = Tracer::new(scene)
-        .with_tree()
-        .with_stack::<STACK>()
-        .with_resolution(Resolution { width, height })
-        .with_max_depth(max_depth)
-        .unwrap();
+    let resolution = Resolution { width, height };
+    assert_same_as(name, scene, scene, resolution, max_depth);
+}
+
+/// Compares rows of a picture of a scene with pixels by the core of one that has other aids to the same hits.
+pub(super) fn assert_same_as(
+    name: &str,
+    scene: Scene<'_>,
+    of_core: Scene<'_>,
+    resolution: Resolution,
+    max_depth: usize,
+) {
+    let [tracer, core] = [scene, of_core].map(|scene| {
+        Tracer::new(scene)
+            .with_tree()
+            .with_stack::<STACK>()
+            .with_resolution(resolution)
+            .with_max_depth(max_depth)
+            .unwrap()
+    });
+    let Resolution { width, height } = resolution;
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let expected: Vec<Color> = pixels.map(|(x, y)| core.pixel(x, y)).collect();
     for level in levels() {
         let mut packets = PacketTracer::new(tracer);
         packets.level = level;
-        // The bits of an outdated row must not show.
-        let mut row = vec![Color::new(f32::NAN, 2.0, -1.0); width.into()];
-        for y in 0..height {
-            packets.sample_row(places(0, y), &mut row);
-            for (x, color) in (0..).zip(&row) {
-                let bits = |c: &Color| [c.r, c.g, c.b].map(f32::to_bits);
-                let expected = tracer.pixel(x, y);
-                assert!(
-                    bits(color) == bits(&expected),
-                    "{name}, {width}x{height}, depth {max_depth}, {level:?}, pixel ({x}, {y}): \
-                     {color:?} instead of {expected:?}"
-                );
+        let compare = |packets: &PacketTracer<'_, STACK>| {
+            // The bits of an outdated row must not show.
+            let mut row = vec![Color::new(f32::NAN, 2.0, -1.0); width.into()];
+            for (y, expected) in (0..).zip(expected.chunks(width.into())) {
+                packets.sample_row(places(0, y), &mut row);
+                for (x, (color, expected)) in row.iter().zip(expected).enumerate() {
+                    let bits = |c: &Color| [c.r, c.g, c.b].map(f32::to_bits);
+                    assert!(
+                        bits(color) == bits(expected),
+                        "{name}, {width}x{height}, depth {max_depth}, {level:?}, pixel ({x}, {y}): \
+                         {color:?} instead of {expected:?}"
+                    );
+                }
             }
+        };
+        compare(&packets);
+        let singles = PacketTree::new(&packets, 0);
+        if singles.as_ref().is_some_and(PacketTree::has_singles) {
+            packets.tree = singles;
+            compare(&packets);
         }
     }
 }
@@ -329,10 +354,10 @@ fn the_first_of_coincident_objects_of_any_shapes_wins() {
 }
 
 /// The generator splitmix64, and scenes from it.
-struct Random(Cell<u64>);
+pub(super) struct Random(Cell<u64>);
 
 impl Random {
-    fn new(seed: u64) -> Self {
+    pub(super) fn new(seed: u64) -> Self {
         Self(Cell::new(seed))
     }
 
@@ -344,25 +369,25 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    fn below(&self, end: usize) -> usize {
+    pub(super) fn below(&self, end: usize) -> usize {
         (self.bits() % end as u64) as usize
     }
 
-    fn one_in(&self, n: usize) -> bool {
+    pub(super) fn one_in(&self, n: usize) -> bool {
         self.below(n) == 0
     }
 
-    fn pick<T: Copy>(&self, choices: &[T]) -> T {
+    pub(super) fn pick<T: Copy>(&self, choices: &[T]) -> T {
         choices[self.below(choices.len())]
     }
 
-    fn between(&self, low: f32, high: f32) -> f32 {
+    pub(super) fn between(&self, low: f32, high: f32) -> f32 {
         low + (high - low) * (self.bits() >> 40) as f32 / (1_u64 << 24) as f32
     }
 
     /// A point with coordinates of up to `extent`; on a coarse grid, vertices, edges and rays
     /// coincide.
-    fn point(&self, extent: f32, grid: bool) -> Vec3 {
+    pub(super) fn point(&self, extent: f32, grid: bool) -> Vec3 {
         let coordinate = || {
             if grid {
                 (self.below(9) as f32 - 4.0) * 0.25 * extent
@@ -385,7 +410,7 @@ impl Random {
         }
     }
 
-    fn material(&self) -> MaterialDescription {
+    pub(super) fn material(&self) -> MaterialDescription {
         MaterialDescription {
             diffuse: self.color(),
             specular: self.color(),

@@ -1,22 +1,41 @@
 //! Eight rays through the tree of a large scene: `Walk` of the core and what the core's tracer does with it.
 //!
 //! A box is visited if any of the rays may meet it, so that each ray is offered more than the core
-//! offers it; what it meets is the same.
+//! offers it; what it meets is the same. Far down in a tree of many spheres the rays part: those that are
+//! nearly alone in a subtree leave the vector and go on one by one ([`single`]), through the same subtree in
+//! another layout ([`wide`]).
+
+mod single;
+#[cfg(test)]
+mod tests;
+mod wide;
 
 use fearless_simd::prelude::*;
-use scanray::{NodeContent, Tree, TreeEntry, Vec3};
+use scanray::{NodeContent, Tree, TreeEntry, TreeNode, Vec3};
 
+use self::single::Single;
+pub(super) use self::single::WaitingParts;
+use self::wide::{WidePart, WideTree};
 use super::batch::{self, Batch, Group, NOTHING};
 use super::lanes::{Indices, LANES, Mask, Numbers, Rays, Vec3s, first_lanes};
 use super::shade::hits;
 use super::{Closest, Listed, PacketTracer, shapes};
 
-/// The tree of a scene in another layout: a node has the boxes of its children, so that two are tested at
-/// once, subtrees are in one place, and leaves have with them what the tests of objects begin with.
-#[derive(Debug, Default)]
+/// The tree of a scene in other layouts.
+#[derive(Debug)]
 pub(super) struct PacketTree {
+    pairs: PairTree,
+    /// For single rays, if there are many spheres and nothing else: triangles are tested one at a time, by eight
+    /// rays sooner than by one.
+    wide: Option<WideTree>,
+}
+
+/// For eight rays: a node has the boxes of its children, so that two are tested at once, subtrees are in one place,
+/// and leaves have with them what the tests of objects begin with.
+#[derive(Debug, Default)]
+struct PairTree {
     /// Index and count of the root, as of the halves of a pair.
-    root: (u32, u16),
+    root: (u32, u8),
     nodes: Vec<Pair>,
     leaves: Vec<LeafObject>,
 }
@@ -30,9 +49,11 @@ struct Pair {
     /// Index of a pair or of the first object of a leaf.
     first: [u32; 2],
     /// Objects of a leaf; 0 for a pair.
-    count: [u16; 2],
+    count: [u8; 2],
     /// The axis along which the first lies below the other.
-    axis: u32,
+    axis: u8,
+    /// The same subtree.
+    wide: WidePart,
 }
 
 /// An object in a leaf.
@@ -49,15 +70,54 @@ pub(super) struct LeafObject {
     pub(super) of_shape: u32,
 }
 
+/// So many rays of a vector do not go on together where there is a tree for single ones.
+const FEW: u32 = 2;
+
+/// In a tree of fewer spheres the rays of a vector had better stay together.
+pub(super) const FEWEST_FOR_SINGLES: usize = 4096;
+
 impl PacketTree {
-    pub(super) fn new<const STACK: usize>(packets: &PacketTracer<'_, STACK>) -> Self {
+    /// Whether single rays have a tree of their own.
+    pub(super) fn has_singles(&self) -> bool {
+        self.wide.is_some()
+    }
+
+    /// The tree of a scene that has one; nothing if there are leaves of more objects than a vector has lanes,
+    /// which the scene's own builder does not make. Single rays have a tree if there are `fewest_for_singles`
+    /// spheres.
+    pub(super) fn new<const STACK: usize>(
+        packets: &PacketTracer<'_, STACK>,
+        fewest_for_singles: usize,
+    ) -> Option<Self> {
         let tree = packets.tracer.scene().tree;
+        let is_small = |node: &TreeNode| match node.content() {
+            NodeContent::Leaf { count, .. } => count as usize <= LANES,
+            NodeContent::Inner { .. } => true,
+        };
+        if !tree.is_some() || !tree.nodes.iter().all(is_small) {
+            return None;
+        }
+        let (mut pairs, pair_of) = PairTree::new(packets, tree);
+        let wide = packets.triangles.is_empty() && packets.spheres.len() >= fewest_for_singles;
+        let wide = wide.then(|| WideTree::new(tree, &mut pairs, &pair_of));
+        Some(Self {
+            pairs,
+            wide: wide.flatten(),
+        })
+    }
+}
+
+impl PairTree {
+    /// The tree in this layout, and for each of its nodes the index of the pair or of the first object of the
+    /// leaf.
+    fn new<const STACK: usize>(
+        packets: &PacketTracer<'_, STACK>,
+        tree: Tree<'_>,
+    ) -> (Self, Vec<u32>) {
         let mut new = Self::default();
+        let mut place_of = vec![0; tree.nodes.len()];
         // Nodes of the tree whose place in a pair is to be filled in, depth first.
         let mut waiting = vec![(0, None)];
-        if !tree.is_some() {
-            waiting.clear();
-        }
         while let Some((node, place)) = waiting.pop() {
             let (first, count) = match tree.nodes[node].content() {
                 NodeContent::Leaf { first, count } => {
@@ -65,7 +125,7 @@ impl PacketTree {
                     let entries = &tree.entries[first as usize..][..count as usize];
                     new.leaves
                         .extend(entries.iter().map(|entry| packets.leaf_object(*entry)));
-                    (start, count as u16)
+                    (start, count as u8)
                 }
                 NodeContent::Inner { first, axis } => {
                     let children = [first, first + 1].map(|child| &tree.nodes[child as usize]);
@@ -75,13 +135,15 @@ impl PacketTree {
                         high: children.map(|child| child.high()),
                         first: [0; 2],
                         count: [0; 2],
-                        axis: axis as u32,
+                        axis: axis as u8,
+                        wide: WidePart::default(),
                     });
                     waiting.push((first as usize + 1, Some((index, 1))));
                     waiting.push((first as usize, Some((index, 0))));
                     (index as u32, 0)
                 }
             };
+            place_of[node] = first;
             match place {
                 Some((pair, half)) => {
                     new.nodes[pair].first[half] = first;
@@ -90,7 +152,7 @@ impl PacketTree {
                 None => new.root = (first, count),
             }
         }
-        new
+        (new, place_of)
     }
 }
 
@@ -105,9 +167,26 @@ struct Walk<'a, S: Simd> {
     leading: Leading<S>,
     /// Whether most rays meet the upper one of two nodes first, by axis.
     upper_first: [usize; 3],
-    /// What is still to be visited, pairs and leaves, the next one last.
-    waiting: [(u32, u16); Tree::<f32>::MAX_DEPTH + 1],
+    /// What is still to be visited, the next one last.
+    waiting: [Waiting; Tree::<f32>::MAX_DEPTH + 1],
     len: usize,
+}
+
+/// A pair or a leaf, and the rays that may meet something in it, a bit for each.
+#[derive(Clone, Copy)]
+struct Waiting {
+    first: u32,
+    /// Objects of a leaf; 0 for a pair.
+    count: u8,
+    rays: u8,
+}
+
+/// Where a walk comes to.
+enum Visit<'a> {
+    /// Objects that some of the rays may meet.
+    Leaf(&'a [LeafObject]),
+    /// A part of the tree that only a few of the rays may meet, a bit for each.
+    Few(&'a WideTree, WidePart, u8),
 }
 
 /// The axis of the largest component of each direction.
@@ -155,41 +234,68 @@ impl<'a, S: Simd> Walk<'a, S> {
                 most(d.y.simd_lt(0.0)),
                 most(d.z.simd_lt(0.0)),
             ],
-            waiting: [tree.root; Tree::<f32>::MAX_DEPTH + 1],
+            waiting: [Waiting {
+                first: tree.pairs.root.0,
+                count: tree.pairs.root.1,
+                rays: active.to_bitmask() as u8,
+            }; Tree::<f32>::MAX_DEPTH + 1],
             len: 1,
         }
     }
 
-    /// The next leaf with objects that one of the rays of a mask may meet at `t ≤ t_max`.
+    /// The next place with objects that one of the rays of a mask may meet at `t ≤ t_max`. `SINGLES`: whether there is
+    /// a tree for single rays.
     #[inline(always)]
-    fn next_leaf(
+    fn next<const SINGLES: bool>(
         &mut self,
         simd: S,
         t_max: Numbers<S>,
         active: Mask<S>,
-    ) -> Option<&'a [LeafObject]> {
+    ) -> Option<Visit<'a>> {
+        let pairs = &self.tree.pairs;
         while self.len > 0 {
             self.len -= 1;
-            let (mut first, mut count) = self.waiting[self.len];
+            let Waiting {
+                mut first,
+                mut count,
+                mut rays,
+            } = self.waiting[self.len];
             while count == 0 {
-                let pair = &self.tree.nodes[first as usize];
+                let pair = &pairs.nodes[first as usize];
+                if SINGLES
+                    && let Some(wide) = &self.tree.wide
+                    && rays.count_ones() <= FEW
+                {
+                    rays &= active.to_bitmask() as u8;
+                    return Some(Visit::Few(wide, pair.wide, rays));
+                }
                 let lower = self.may_meet(simd, pair.low[0], pair.high[0], t_max) & active;
                 let upper = self.may_meet(simd, pair.low[1], pair.high[1], t_max) & active;
+                let met = |half: usize| [lower, upper][half].to_bitmask() as u8;
                 let half = match (lower.any_true(), upper.any_true()) {
                     (false, false) => break,
                     (true, false) => 0,
                     (false, true) => 1,
                     (true, true) => {
-                        let near = self.upper_first[pair.axis as usize];
-                        self.waiting[self.len] = (pair.first[near ^ 1], pair.count[near ^ 1]);
+                        let near = self.upper_first[usize::from(pair.axis)];
+                        let far = near ^ 1;
+                        self.waiting[self.len] = Waiting {
+                            first: pair.first[far],
+                            count: pair.count[far],
+                            rays: if SINGLES { met(far) } else { 0 },
+                        };
                         self.len += 1;
                         near
                     }
                 };
                 (first, count) = (pair.first[half], pair.count[half]);
+                if SINGLES {
+                    rays = met(half);
+                }
             }
             if count > 0 {
-                return Some(&self.tree.leaves[first as usize..][..usize::from(count)]);
+                let leaf = &pairs.leaves[first as usize..][..usize::from(count)];
+                return Some(Visit::Leaf(leaf));
             }
         }
         None
@@ -219,6 +325,37 @@ impl<'a, S: Simd> Walk<'a, S> {
             }
         };
         entry.simd_le(exit) & leading_exit.simd_ge(0.0) & leading_entry.simd_le(t_max)
+    }
+}
+
+/// The numbers of the bits of a mask.
+#[inline(always)]
+fn bits(mut mask: u8) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lane = mask.trailing_zeros() as usize;
+        mask &= mask.wrapping_sub(1);
+        (lane < LANES).then_some(lane)
+    })
+}
+
+impl<S: Simd> Closest<S> {
+    /// Takes what some rays meet that go on one by one, if that comes first.
+    #[inline(always)]
+    fn offer_singly<'w>(
+        &mut self,
+        simd: S,
+        lanes: u8,
+        single: impl Fn(usize) -> Single<'w>,
+        waiting: &mut WaitingParts,
+    ) {
+        let mut t: [f32; LANES] = self.t.into();
+        let mut object: [u32; LANES] = self.object.into();
+        for lane in bits(lanes) {
+            let known = (t[lane], object[lane]);
+            (t[lane], object[lane]) = single(lane).nearest(simd, waiting, known);
+        }
+        self.t = Numbers::simd_from(simd, t);
+        self.object = Indices::simd_from(simd, object);
     }
 }
 
@@ -256,7 +393,13 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
     }
 
     /// `meet`, for rays that may leave any sides. `Tracer::closest_in_tree`, and the planes.
-    pub(super) fn meet_by_tree<S: Simd>(&self, simd: S, batch: &mut Batch, at: usize) -> usize {
+    pub(super) fn meet_by_tree<S: Simd, const SINGLES: bool>(
+        &self,
+        simd: S,
+        tree: &PacketTree,
+        batch: &mut Batch,
+        at: usize,
+    ) -> usize {
         simd.vectorize(
             #[inline(always)]
             || {
@@ -268,8 +411,21 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                 let active = first_lanes(simd, count);
                 let leaves = Indices::from_slice(simd, &batch.leaves[at..at + LANES]) >> 1;
                 let mut closest = Closest::none(simd);
-                let mut walk = Walk::new(simd, &self.tree, &rays, active);
-                while let Some(objects) = walk.next_leaf(simd, closest.t, active) {
+                for plane in &self.planes {
+                    let t = shapes::meet_plane(simd, plane.shape, &rays);
+                    let lanes = !leaves.simd_eq(plane.index);
+                    closest.offer(simd, t, lanes, plane.index);
+                }
+                let mut walk = Walk::new(simd, tree, &rays, active);
+                while let Some(visit) = walk.next::<SINGLES>(simd, closest.t, active) {
+                    let objects = match visit {
+                        Visit::Leaf(objects) => objects,
+                        Visit::Few(wide, part, lanes) => {
+                            let single = |lane| Single::new(&walk, &rays, lane, wide, part);
+                            closest.offer_singly(simd, lanes, single, &mut batch.waiting);
+                            continue;
+                        }
+                    };
                     for object in objects {
                         if !object.is_triangle {
                             let (center, square) = (object.center, object.radius_squared);
@@ -290,11 +446,6 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                         }
                     }
                 }
-                for plane in &self.planes {
-                    let t = shapes::meet_plane(simd, plane.shape, &rays);
-                    let lanes = !leaves.simd_eq(plane.index);
-                    closest.offer(simd, t, lanes, plane.index);
-                }
                 closest
                     .object
                     .store_slice(&mut batch.object[at..at + LANES]);
@@ -313,7 +464,13 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
 
     /// Finds out which lights reach what the rays of a batch meet, eight neighbours at a time: many small
     /// objects are met by fewer rays each than a vector has lanes.
-    pub(super) fn cast_shadows<S: Simd>(&self, simd: S, batch: &mut Batch, groups: &[Group]) {
+    pub(super) fn cast_shadows<S: Simd, const SINGLES: bool>(
+        &self,
+        simd: S,
+        tree: &PacketTree,
+        batch: &mut Batch,
+        groups: &[Group],
+    ) {
         simd.vectorize(
             #[inline(always)]
             || {
@@ -349,8 +506,15 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                             origin,
                             direction: to_light * inverse,
                         };
-                        let occluded =
-                            self.occluded_by_tree(simd, &shadow, objects, distance, facing);
+                        let occluded = self.occluded_by_tree::<S, SINGLES>(
+                            simd,
+                            tree,
+                            &shadow,
+                            &mut batch.waiting,
+                            objects,
+                            distance,
+                            facing,
+                        );
                         let reached = (!occluded).to_bitmask();
                         for (lane, lit) in lit.iter_mut().enumerate() {
                             *lit |= ((reached >> lane & 1) as u32) << number;
@@ -364,10 +528,13 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
 
     /// The lanes of a mask whose rays, which leave objects, meet one that casts a shadow before `t_max`, and all
     /// others. `Tracer::occluded`.
-    fn occluded_by_tree<S: Simd>(
+    #[expect(clippy::too_many_arguments)]
+    fn occluded_by_tree<S: Simd, const SINGLES: bool>(
         &self,
         simd: S,
+        tree: &PacketTree,
         rays: &Rays<S>,
+        waiting: &mut WaitingParts,
         leaves: Indices<S>,
         t_max: Numbers<S>,
         lanes: Mask<S>,
@@ -383,10 +550,22 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                         occluded |= lanes & t.simd_gt(0.0) & t.simd_lt(t_max);
                     }
                 }
-                let mut walk = Walk::new(simd, &self.tree, rays, lanes);
+                let mut walk = Walk::new(simd, tree, rays, lanes);
                 while !occluded.all_true()
-                    && let Some(objects) = walk.next_leaf(simd, t_max, !occluded)
+                    && let Some(visit) = walk.next::<SINGLES>(simd, t_max, !occluded)
                 {
+                    let objects = match visit {
+                        Visit::Leaf(objects) => objects,
+                        Visit::Few(wide, part, lanes) => {
+                            for lane in bits(lanes) {
+                                let single = Single::new(&walk, rays, lane, wide, part);
+                                if single.is_occluded(simd, waiting, t_max[lane]) {
+                                    occluded |= Mask::from_bitmask(simd, 1 << lane);
+                                }
+                            }
+                            continue;
+                        }
+                    };
                     for object in objects {
                         if !object.casts_shadow {
                             continue;
