@@ -9,6 +9,9 @@ use embedded_graphics::primitives::Rectangle;
 use rayon::prelude::*;
 use scanray::{Color, DisplayColor};
 
+/// A thread does not begin to fill fewer pixels.
+const MIN_FILLED: usize = 1 << 14;
+
 /// Rows of a picture in the colours of a display.
 ///
 /// Its pixels keep their coordinates in the whole picture. Bands of rows can be drawn independently.
@@ -27,13 +30,16 @@ pub(crate) struct Band<'c, C> {
 }
 
 impl<C: DisplayColor + Into<Rgb888> + Send> Canvas<C> {
-    /// Black rows, `top` being the first.
+    /// Black rows, `top` being the first. Rayon's threads share the work: a large part of it is the system's, who
+    /// gives out the memory.
     pub(crate) fn new(width: u16, top: u16, rows: u16) -> Self {
         let width = usize::from(width);
+        let black = C::from_linear(Color::<f32>::BLACK, 0.5);
+        let pixels = rayon::iter::repeat_n(black, width * usize::from(rows));
         Self {
             width,
             top: usize::from(top),
-            pixels: vec![C::from_linear(Color::<f32>::BLACK, 0.5); width * usize::from(rows)],
+            pixels: pixels.with_min_len(MIN_FILLED).collect(),
         }
     }
 

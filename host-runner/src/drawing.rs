@@ -126,15 +126,16 @@ where
         let top = self.rows.start;
         self.rows.start += rows;
 
-        let mut canvas = Canvas::new(width, top, rows);
         let (picture, progress) = (&self.picture, self.progress);
-        self.workers.0.install(|| {
+        let canvas = self.workers.install(|| {
+            let mut canvas = Canvas::new(width, top, rows);
             // Left to itself rayon hands out quarters of a picture, one of which may take longer than the others.
             let bands = canvas.bands(BAND_ROWS).with_max_len(1);
             bands.for_each(|mut band| {
                 let Ok(()) = picture.draw(&mut band);
                 progress.advance(band.rows());
             });
+            canvas
         });
         self.time += start.elapsed();
         self.cpu_time += cpu_start.elapsed();
