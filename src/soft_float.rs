@@ -232,12 +232,12 @@ pub(crate) fn add(x: f32, y: f32) -> f32 {
 #[inline(never)]
 fn add_extremes(x: u32, y: u32) -> f32 {
     // So are cameras at 0.
-    if y << 1 == 0 && x << 1 != 0 {
-        f32::from_bits(x)
-    } else if x << 1 == 0 && y << 1 != 0 {
-        f32::from_bits(y)
-    } else {
-        f32::from_bits(x) + f32::from_bits(y)
+    match (x << 1 == 0, y << 1 == 0) {
+        // Of two zeros only −0 and −0 is −0.
+        (true, true) => f32::from_bits(x & y),
+        (false, true) => f32::from_bits(x),
+        (true, false) => f32::from_bits(y),
+        (false, false) => f32::from_bits(x) + f32::from_bits(y),
     }
 }
 

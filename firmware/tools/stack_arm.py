@@ -19,8 +19,11 @@ def registers(listed):
     return count, 8 if names[0].startswith("d") else 4
 
 
-def growth(mnemonic, operands):
-    """Bytes the instruction adds to the stack; None when it moves the stack pointer in a way that is not followed."""
+def growth(mnemonic, operands, before):
+    """Bytes the instruction adds to the stack; None when it moves the stack pointer in a way that is not followed.
+
+    `before` are the instructions in front of it, the last first.
+    """
     name = mnemonic.split(".")[0]
     if name in ("push", "vpush", "pop", "vpop"):
         count, each = registers(operands)
@@ -41,8 +44,19 @@ def growth(mnemonic, operands):
         # An epilogue that takes the stack pointer back from the frame pointer only shrinks the stack.
         if name == "mov" and operands == "sp, r7" or name in ("sub", "subw") and re.fullmatch(r"sp, r7, #\d+", operands):
             return 0
-        return None
+        restored = re.fullmatch(r"sp, (r\d+)", operands)
+        return 0 if name == "mov" and restored and is_below_frame_pointer(restored[1], before) else None
     return 0
+
+
+def is_below_frame_pointer(register, before):
+    """Thumb-1 takes the stack pointer back by `subs rN, r7, #…; subs rN, #…; mov sp, rN`."""
+    for mnemonic, operands in before:
+        if mnemonic.startswith("sub") and re.fullmatch(rf"{register}, r7, #\d+", operands):
+            return True
+        if not (mnemonic.startswith("sub") and re.fullmatch(rf"{register},(?: {register},)? #\d+", operands)):
+            return False
+    return False
 
 
 def flow(image, function, order, address):

@@ -78,6 +78,7 @@ def walk(image, functions, function, emitted, core):
     """Fills in the function's depth and calls."""
     order = sorted(function.instructions)
     following = dict(zip(order, order[1:]))
+    places = {address: place for place, address in enumerate(order)}
     after_last = order[-1] + (4 if function.instructions[order[-1]][0].endswith(".w") else 2) if order else 0
     fixed = None
     depth_at, waiting = {}, [(function.address, 0)]
@@ -107,7 +108,8 @@ def walk(image, functions, function, emitted, core):
         # Padding between a call that never returns and literals.
         if mnemonic.startswith("nop") and address not in following:
             continue
-        change = core.growth(mnemonic, operands)
+        before = [function.instructions[a] for a in order[max(0, places[address] - 4):places[address]][::-1]]
+        change = core.growth(mnemonic, operands, before)
         if change is None or depth > CONVERGED_BY:
             fixed = emitted.get(function.address)
             if fixed is None:

@@ -9,7 +9,7 @@ ROOT = "_start"
 TARGET = re.compile(r"\b([0-9a-f]+) <[^>]*>\s*$")
 
 
-def growth(mnemonic, operands):
+def growth(mnemonic, operands, _before):
     """Bytes the instruction adds to the stack; None when it moves the stack pointer in a way that is not followed."""
     if not re.match(r"sp\b", operands) or mnemonic in ("sw", "sh", "sb") or mnemonic.startswith("b"):
         return 0

@@ -30,7 +30,10 @@ pub trait DisplayColor: PixelColor {
 /// `⌊levels·c + threshold⌋`.
 #[inline(always)]
 fn quantize<T: Scalar>(channel: T, levels: u8, threshold: T) -> u8 {
-    (T::from_i32(i32::from(levels)) * channel + threshold).to_u32() as u8
+    T::from_i32(i32::from(levels))
+        .times(channel)
+        .plus(threshold)
+        .to_u32() as u8
 }
 
 macro_rules! rgb {

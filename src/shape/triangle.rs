@@ -207,12 +207,16 @@ impl<T: Scalar> Triangle<T> {
         let inside =
             (u.is_zero_or_positive() && v.is_zero_or_positive() && w.is_zero_or_positive())
                 || (u.is_zero_or_negative() && v.is_zero_or_negative() && w.is_zero_or_negative());
-        let determinant = u + v + w;
+        let determinant = u.plus(v).plus(w);
         if !inside || determinant.is_zero() {
             return None;
         }
         let inverse = T::ONE / determinant;
-        let t = (u * a.z + v * b.z + w * c.z) * inverse;
+        let t = u
+            .times(a.z)
+            .plus(v.times(b.z))
+            .plus(w.times(c.z))
+            .times(inverse);
         if t.is_positive() {
             let place = Barycentric {
                 v2: v * inverse,
