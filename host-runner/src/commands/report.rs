@@ -170,6 +170,7 @@ fn measure_all(
     let workers = Workers::new(args.threads)?;
     let steps = scenes.len() as u64 * (Sweep::steps() + 1);
     let progress = Progress::new("Measuring".to_owned(), steps);
+    let closed_forms = report::distances(&workers)?;
     let mut reports = Vec::new();
     for Named { source, text, name } in scenes {
         let scene = BothScalars::load_text(source, text)?;
@@ -183,7 +184,7 @@ fn measure_all(
         Some(Err(why)) => Emulation::Missing(why),
         Some(Ok(emulator)) => count(&emulator, &args.emulate, scenes, &mut reports)?,
     };
-    Ok(Document::new(emulation, reports))
+    Ok(Document::new(closed_forms, emulation, reports))
 }
 
 /// Enters what is counted under emulation.

@@ -3,6 +3,7 @@
 use scanray::Resolution;
 use serde::{Serialize, Serializer};
 
+use super::closed_forms::Distance;
 use super::errors::Errors;
 use super::references::{DEPTH, LeftOut, SAMPLES};
 use super::settings::Settings;
@@ -17,6 +18,8 @@ pub(crate) struct Document {
     pub(crate) version: &'static str,
     pub(crate) reference_depth: usize,
     pub(crate) reference_samples: u32,
+    /// How far the references are from closed forms.
+    pub(crate) closed_forms: Vec<Distance>,
     pub(crate) emulation: Emulation,
     pub(crate) scenes: Vec<SceneReport>,
 }
@@ -48,11 +51,16 @@ impl Emulation {
 
 impl Document {
     /// A report on scenes.
-    pub(crate) fn new(emulation: Emulation, mut scenes: Vec<SceneReport>) -> Self {
+    pub(crate) fn new(
+        closed_forms: Vec<Distance>,
+        emulation: Emulation,
+        mut scenes: Vec<SceneReport>,
+    ) -> Self {
         for scene in &mut scenes {
             judge(&mut scene.configurations);
         }
         Self {
+            closed_forms,
             emulation,
             version: env!("CARGO_PKG_VERSION"),
             reference_depth: DEPTH,

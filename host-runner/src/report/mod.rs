@@ -4,7 +4,6 @@
 //! tests, instructions and host time; [`document`] holds the result, which [`page`], [`markdown`] and
 //! [`table`] write.
 
-#[cfg(test)]
 mod closed_forms;
 mod document;
 mod errors;
@@ -23,6 +22,7 @@ mod timing;
 mod tracing;
 mod tune;
 
+pub(crate) use closed_forms::distances;
 pub(crate) use document::{Document, Emulation, SceneReport};
 pub(crate) use markdown::write as write_markdown;
 pub(crate) use page::write as write_page;

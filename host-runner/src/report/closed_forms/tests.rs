@@ -1,52 +1,19 @@
-//! R3: the split of errors on scenes whose pictures can be computed by hand.
+//! The split of errors on the scenes whose pictures can be computed by hand.
 
-use std::fs;
-
-use scanray::Resolution;
-
-use super::document::Configuration;
-use super::references::{DEPTH, SAMPLES_A_SIDE};
-use super::scenes::BothScalars;
-use super::settings::{Sampling, Settings};
-use super::sweep::Sweep;
-use crate::drawing::Workers;
+use super::*;
 use crate::options::ColorName;
-use crate::scene_file::SceneSource;
-
-const SIZE: Resolution = Resolution {
-    width: 32,
-    height: 24,
-};
-
-/// The head of a scene without sky: camera at the origin, light as given, ambient intensity 1, background.
-fn head(objects: usize, light: &str, background: &str) -> String {
-    format!("{objects}\n0 0 0\n32 24\n{light}\n1\n0\n{background}\n")
-}
+use crate::report::document::Configuration;
+use crate::report::sweep::Sweep;
 
 /// Measures settings on a scene, and hands over the sweep for more.
-fn measured<R>(scene: &str, check: impl FnOnce(&Sweep<'_>) -> R) -> R {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("scene.txt");
-    fs::write(&path, scene).unwrap();
-    let scene = BothScalars::load(&SceneSource::File(path)).unwrap();
+fn measured<R>(form: &ClosedForm, check: impl FnOnce(&Sweep<'_>) -> R) -> R {
+    let scene = form.load().unwrap();
     let workers = Workers::new(Some(2)).unwrap();
     check(&Sweep::new(&scene, SIZE, &workers).unwrap())
 }
 
 fn measure(sweep: &Sweep<'_>, settings: Settings) -> Configuration {
     sweep.measure(&settings).unwrap()
-}
-
-/// Where the centre of a part of a pixel lies on the image plane at z = 1.
-fn place(x: u16, y: u16, part: (u16, u16), parts: u16) -> (f64, f64) {
-    let at = |pixel: u16, part: u16| f64::from(pixel) + (f64::from(part) + 0.5) / f64::from(parts);
-    let (width, height) = (f64::from(SIZE.width), f64::from(SIZE.height));
-    let (x, y) = (at(x, part.0), at(y, part.1));
-    ((2.0 * x - width) / height, (height - 2.0 * y) / height)
-}
-
-fn pixels() -> impl Iterator<Item = (u16, u16)> {
-    (0..SIZE.height).flat_map(|y| (0..SIZE.width).map(move |x| (x, y)))
 }
 
 /// Root of the mean square, in levels, of grey differences.
@@ -88,21 +55,11 @@ fn covered(x: u16, y: u16, radius: f64) -> f64 {
 
 #[test]
 fn a_sphere_has_aliasing_and_quantisation_alone() {
-    // A disc of 0.7 on 0.2: the silhouette of a sphere on the axis is a circle.
-    let scene = head(1, "0 0 -9 0 0 0 0 0 0", "0.2 0.2 0.2")
-        + "0 0 0 5 2.1 0 0 0 0 0 0 0.7 0.7 0.7 0 1 0 0\n";
-    let radius = 2.1 / (25.0_f64 - 2.1 * 2.1).sqrt();
+    let [form, ..] = &closed_forms();
+    let radius = silhouette();
     let color = |share: f64| 0.2 + 0.5 * share;
-    let sample = |x, y, part, parts| {
-        let (x, y) = place(x, y, part, parts);
-        color(if x * x + y * y <= radius * radius {
-            1.0
-        } else {
-            0.0
-        })
-    };
-    let centre = |x, y| sample(x, y, (0, 0), 1);
-    measured(&scene, |sweep| {
+    let centre = |x, y| form.mean(x, y, 1);
+    measured(form, |sweep| {
         let errors = measure(sweep, Settings::DEFAULT).errors;
         assert_eq!(errors.truncation.max, 0.0);
         // 0.7 and 0.2 have no exact f32.
@@ -110,11 +67,7 @@ fn a_sphere_has_aliasing_and_quantisation_alone() {
         let quantisation = rmse(pixels().map(|(x, y)| shown(centre(x, y)) - centre(x, y)));
         close(errors.quantisation.rmse, quantisation, 1e-5);
         // R2 is the mean of its grid exactly, and close to the area.
-        let mean = |x: u16, y: u16| {
-            let side = SAMPLES_A_SIDE;
-            let parts = (0..side).flat_map(|b| (0..side).map(move |a| (a, b)));
-            parts.map(|part| sample(x, y, part, side)).sum::<f64>() / f64::from(side * side)
-        };
+        let mean = |x: u16, y: u16| form.mean(x, y, SAMPLES_A_SIDE);
         let aliasing = rmse(pixels().map(|(x, y)| centre(x, y) - mean(x, y)));
         close(errors.aliasing.rmse, aliasing, 1e-9);
         let total = rmse(pixels().map(|(x, y)| shown(centre(x, y)) - mean(x, y)));
@@ -145,29 +98,13 @@ fn a_sphere_has_aliasing_and_quantisation_alone() {
 
 #[test]
 fn a_plane_is_shaded_as_by_hand() {
-    // A lit floor at y = −1 below a grey background.
-    let scene = head(1, "1 3 4 0 0 0 1 1 1", "0.5 0.5 0.5")
-        + "1 0 1 0 1 0.8 0.8 0.8 0 0 0 0.1 0.1 0.1 0 1 0 0\n";
-    let sample = |x: u16, y: u16, part, parts| {
-        let (x, y) = place(x, y, part, parts);
-        if y >= 0.0 {
-            return 0.5;
-        }
-        let point = [x / -y, -1.0, 1.0 / -y];
-        let to_light = [1.0 - point[0], 4.0, 4.0 - point[2]];
-        let distance = to_light.iter().map(|c| c * c).sum::<f64>().sqrt();
-        0.1 + 0.8 * 4.0 / distance
-    };
-    measured(&scene, |sweep| {
+    let [_, form, _] = &closed_forms();
+    measured(form, |sweep| {
         let errors = measure(sweep, Settings::DEFAULT).errors;
         assert_eq!(errors.truncation.max, 0.0);
         assert!(errors.rounding.max < 1e-3, "{}", errors.rounding.max);
-        let side = SAMPLES_A_SIDE;
-        let mean = |x: u16, y: u16| {
-            let parts = (0..side).flat_map(|b| (0..side).map(move |a| (a, b)));
-            parts.map(|part| sample(x, y, part, side)).sum::<f64>() / f64::from(side * side)
-        };
-        let centre = |x, y| sample(x, y, (0, 0), 1);
+        let mean = |x: u16, y: u16| form.mean(x, y, SAMPLES_A_SIDE);
+        let centre = |x, y| form.mean(x, y, 1);
         let aliasing = rmse(pixels().map(|(x, y)| centre(x, y) - mean(x, y)));
         close(errors.aliasing.rmse, aliasing, 1e-9);
         let quantisation = rmse(pixels().map(|(x, y)| shown(centre(x, y)) - centre(x, y)));
@@ -179,16 +116,9 @@ fn a_plane_is_shaded_as_by_hand() {
 
 #[test]
 fn facing_mirrors_have_truncation_alone() {
-    let (ambient, share) = (0.2, 0.6);
-    let mirror = format!("0 0 0 0 0 0 {ambient} {ambient} {ambient} {share} 1 0 0\n");
-    let scene =
-        head(2, "0 9 0 0 0 0 0 0 0", "0 0 0") + &format!("1 0 0 1 1 {mirror}1 0 0 -1 1 {mirror}");
-    let series = |depth: usize| {
-        (0..=depth)
-            .map(|k| ambient * f64::powi(share, k as i32))
-            .sum::<f64>()
-    };
-    measured(&scene, |sweep| {
+    let [.., form] = &closed_forms();
+    let (ambient, share) = MIRRORS;
+    measured(form, |sweep| {
         for max_depth in [0, 1, 5, DEPTH] {
             let errors = measure(
                 sweep,
@@ -229,8 +159,12 @@ fn facing_mirrors_have_truncation_alone() {
 
 #[test]
 fn few_colours_have_quantisation_alone() {
-    let scene = head(0, "0 9 0 0 0 0 0 0 0", "0.3 0.3 0.3");
-    measured(&scene, |sweep| {
+    let form = ClosedForm {
+        name: "an empty scene",
+        scene: head(0, "0 9 0 0 0 0 0 0 0", "0.3 0.3 0.3"),
+        grey: |_, _| 0.3,
+    };
+    measured(&form, |sweep| {
         let settings = Settings {
             color: ColorName::Gray4,
             ..Settings::DEFAULT
@@ -242,4 +176,21 @@ fn few_colours_have_quantisation_alone() {
         assert_eq!(errors.truncation.max, 0.0);
         close(errors.aliasing.max, 0.0, 1e-9);
     });
+}
+
+#[test]
+fn the_references_are_the_closed_forms() {
+    let workers = Workers::new(Some(2)).unwrap();
+    for Distance { name, r1, r2 } in distances(&workers).unwrap() {
+        assert!(r1 < 1e-9 && r2 < 1e-9, "{name}: {r1}, {r2}");
+    }
+    // What is not the closed form is noticed.
+    let wrong = ClosedForm {
+        grey: |_, _| series(DEPTH - 1),
+        ..closed_forms().into_iter().next_back().unwrap()
+    };
+    let scene = wrong.load().unwrap();
+    let references =
+        References::draw(scene.double(Settings::DEFAULT.power), SIZE, &workers).unwrap();
+    assert!(Error::between(&references.r2, &wrong.picture(1)).max > 1e-3);
 }
