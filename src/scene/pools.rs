@@ -4,7 +4,7 @@ use core::fmt;
 
 use heapless::{Vec, VecView};
 
-use super::{Object, Reach, Scene, Tree, TreeEntry, TreeNode, Zones};
+use super::{Needs, Object, ObjectSet, Reach, Scene, Tree, TreeEntry, TreeNode, Zones};
 use crate::background::Background;
 use crate::camera::{Camera, Resolution};
 use crate::light::Light;
@@ -168,6 +168,26 @@ impl<
     const TREE: usize,
 > ScenePools<T, SPHERES, PLANES, TRIANGLES, MATERIALS, LIGHTS, SIDES, TREE>
 {
+    /// The stages that a scene in these pools can need, for [`tracer_for!`](crate::tracer_for): shapes that there is
+    /// no room for are left out, and so is what only scenes of more than 31 objects need, or a tree.
+    pub const NEEDS: Needs = {
+        let mut missing = Needs::NONE;
+        if SPHERES == 0 {
+            missing = missing.union(Needs::SPHERES);
+        }
+        if PLANES == 0 {
+            missing = missing.union(Needs::PLANES);
+        }
+        if TRIANGLES == 0 {
+            missing = missing.union(Needs::TRIANGLES);
+        }
+        if SPHERES + PLANES + TRIANGLES <= ObjectSet::TOLD_APART {
+            missing = missing.union(Needs::MANY_OBJECTS);
+        }
+        let tree = if TREE == 0 { Needs::NONE } else { Needs::TREE };
+        Needs::ALL.without(missing).union(tree)
+    };
+
     /// Empty pools: a scene without objects and lights, of 0×0 pixels.
     pub const fn new() -> Self {
         Self {

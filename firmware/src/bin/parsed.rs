@@ -6,22 +6,25 @@
 #![no_main]
 
 use board::{console, stack};
-use scanray::{ParseError, ScenePools, Tracer};
+use scanray::{ParseError, ScenePools, tracer_for};
 use scanray_firmware::measure::{self, EMPTY_ROW, RESOLUTION, Row};
 
-board::entry!(program, (ScenePools, Row) = (ScenePools::new(), EMPTY_ROW));
+/// Room for the objects that a tracer tells apart: 31 in all.
+type Pools = ScenePools<f32, 12, 4, 15>;
+
+board::entry!(program, (Pools, Row) = (Pools::new(), EMPTY_ROW));
 
 const GOOD: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/scene.txt"));
 /// Its fifth line should be one number.
 const BAD: &[u8] = b"0\n0 0 0\n160 120\n0 9 0 1 1 1 1 1 1\n0.1 dark\n";
 
-fn program((pools, row): &mut (ScenePools, Row)) -> Result<(), &'static str> {
+fn program((pools, row): &mut (Pools, Row)) -> Result<(), &'static str> {
     stack::paint();
     if let Err(error) = pools.parse(GOOD) {
         print_place(&error);
         return Err("the good scene was rejected");
     }
-    let tracer = Tracer::new(pools.as_scene());
+    let tracer = tracer_for!(pools, in Pools);
     measure::picture(tracer.with_resolution(RESOLUTION), row);
 
     match pools.parse(BAD) {
