@@ -121,7 +121,7 @@ impl Members {
                 Some(member) if !is_at_end => member,
                 _ => {
                     // If the shape has objects beyond those told apart, nothing else is left.
-                    if self.beyond >= end {
+                    if !self.many || self.beyond >= end {
                         return false;
                     }
                     index = self.beyond.max(start);
@@ -135,7 +135,7 @@ impl Members {
             if visit(index, member) {
                 return true;
             }
-            self.left &= !FIRST.unbounded_shr(self.left.leading_zeros());
+            self.left &= !(FIRST >> (self.left | 1).leading_zeros());
             // With a single object there is no loop, out of which a compiler would move all of its tests but
             // the ray, and so before the question whether it is a member.
             if end - start == 1 {
