@@ -251,7 +251,7 @@ def main():
     parser.add_argument("--scene", default="../scenes/default.txt", help="relative to firmware/")
     parser.add_argument("--board", default="mps2-an386", choices=[name for name in BOARDS if name not in ("virt",)])
     parser.add_argument("--profile", default="size", choices=["size", "release"])
-    parser.add_argument("--flags", nargs="*", default=[], help="more of the compiler's, such as --flags=-Ctarget-cpu=generic")
+    parser.add_argument("--flags", nargs="*", default=[], help="more of the compiler's, such as --flags=-Ctarget-cpu=cortex-m4")
     parser.add_argument("--top", type=int, default=40, help="lines of a table")
     arguments = parser.parse_args()
     if arguments.image and not os.path.exists(arguments.image):

@@ -88,7 +88,7 @@ def readme_table():
         for board, core in README_BOARDS.items():
             cost, estimated = costs[row, "size", board], ""
             if board == "M4F":
-                estimated = f"about {float(cycles[row, 'size', 'cortex-m4']['cycles/pixel']):,.0f}"
+                estimated = f"about {float(cycles[row, 'size', 'generic']['cycles/pixel']):,.0f}"
             bytes = " | ".join(f"{cost[figure]} B" for figure in ("flash", "RAM", "stack bound"))
             lines.append(f"| {name if board == 'M4F' else ''} | {core} | {bytes} "
                          f"| {float(cost['instructions/pixel']):,.0f} | {estimated} |")

@@ -114,8 +114,10 @@ impl Members {
         mut visit: impl FnMut(usize, O) -> bool,
     ) -> bool {
         loop {
-            let mut index = self.left.leading_zeros() as usize;
-            // Beyond those told apart 32 is the index of an object.
+            // The lowest bit is that of the objects beyond: at the end its place is no index of an object told apart, and
+            // it keeps a compiler from asking whether there is a bit at all.
+            let mut index = (self.left | 1).leading_zeros() as usize;
+            // With many objects that place is an index.
             let is_at_end = self.many && self.left == 0;
             let member = match object(index) {
                 Some(member) if !is_at_end => member,
