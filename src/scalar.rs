@@ -584,7 +584,7 @@ fn hardware_sqrt(value: f32) -> f32 {
 #[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
 #[inline(always)]
 fn hardware_sqrt(value: f32) -> f32 {
-    if soft_float::HAS_SHORT_PRODUCTS {
+    if f32::EMULATED {
         soft_float::square_root(value)
     } else {
         libm::sqrtf(value)
