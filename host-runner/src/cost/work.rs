@@ -81,7 +81,7 @@ work! {
     added_samples,
     /// Pixels that are compared with their neighbours.
     compared_pixels,
-    /// Rays, shadow rays left out, of pictures whose pixels are compared: the tracer is called from two places.
+    /// Rays, shadow rays left out, of pictures whose pixels are compared: they take more than others.
     compared_rays,
     /// Hits of pictures with a cut-off: whether their secondary rays show is looked at.
     cutoff_hits,

@@ -67,6 +67,41 @@ fn says_when_nothing_fits() {
 }
 
 #[test]
+fn errors_are_those_that_the_display_is_seen_with() {
+    let error = |more: &[&str]| {
+        let (_, json) = tuned("10s", more);
+        let measure = json["error_measure"].as_str().unwrap().to_owned();
+        (measure, json["best"]["error"].as_f64().unwrap())
+    };
+    let (measure, of_colours) = error(&[]);
+    assert_eq!(measure, "rmse");
+    // Greys are compared with greys: that the colours are gone is no error.
+    let (measure, of_greys) = error(&["--color", "gray8"]);
+    assert_eq!(measure, "rmse");
+    assert!(of_greys < 2.0 * of_colours, "{of_greys}, {of_colours}");
+    // The mean square would say that dither makes black and white worse.
+    let (_, plain) = error(&["--color", "binary"]);
+    let (measure, dithered) = error(&["--color", "binary", "--dither"]);
+    assert_eq!(measure, "flip");
+    assert!(plain > 1.0 && dithered < 1.0, "{plain}, {dithered}");
+}
+
+#[test]
+fn scenes_with_a_tree_are_predicted() {
+    let folder = Folder::new();
+    folder.succeed(&["generate", "icosphere", "--count", "80", "-o", "gem.txt"]);
+    let run = folder.succeed(&[
+        "tune", "gem.txt", "--target", "m3", "--clock", "72MHz", "--budget", "1s", "--size", "8x6",
+        "--json",
+    ]);
+    let json: serde_json::Value = serde_json::from_slice(&run.stdout).unwrap();
+    assert!(
+        json["best"]["instructions"].as_f64().unwrap() > 1e4,
+        "{json}"
+    );
+}
+
+#[test]
 fn units_are_asked_for() {
     let folder = Folder::new();
     for (clock, budget, words) in [
