@@ -9,17 +9,14 @@ use embedded_graphics::primitives::Rectangle;
 use rayon::prelude::*;
 use scanray::{Color, DisplayColor};
 
-/// A thread does not begin to fill fewer pixels.
-const MIN_FILLED: usize = 1 << 14;
-
 /// Rows of a picture in the colours of a display.
 ///
 /// Its pixels keep their coordinates in the whole picture. Bands of rows can be drawn independently.
 #[derive(Debug)]
 pub(crate) struct Canvas<C> {
     width: usize,
-    top: usize,
-    pixels: Vec<C>,
+    /// The pixels of some rows each.
+    bands: Vec<Vec<C>>,
 }
 
 /// Some rows of a canvas, and a display of their own.
@@ -30,44 +27,48 @@ pub(crate) struct Band<'c, C> {
 }
 
 impl<C: DisplayColor + Into<Rgb888> + Send> Canvas<C> {
-    /// Black rows, `top` being the first. Rayon's threads share the work: a large part of it is the system's, who
-    /// gives out the memory.
-    pub(crate) fn new(width: u16, top: u16, rows: u16) -> Self {
-        let width = usize::from(width);
-        let black = C::from_linear(Color::<f32>::BLACK, 0.5);
-        let pixels = rayon::iter::repeat_n(black, width * usize::from(rows));
+    /// Draws rows, `top` being the first, in bands of as many rows each, the last of perhaps fewer. Rayon's threads
+    /// share the work; a band is black before.
+    pub(crate) fn draw(
+        [width, top, rows]: [u16; 3],
+        band_rows: usize,
+        draw: impl Fn(&mut Band<'_, C>) + Sync,
+    ) -> Self {
+        let [width, top, rows] = [width, top, rows].map(usize::from);
+        let band = |index: usize| {
+            let first = index * band_rows;
+            let rows = band_rows.min(rows - first);
+            let mut pixels = vec![C::from_linear(Color::<f32>::BLACK, 0.5); width * rows];
+            draw(&mut Band::new(width, top + first, &mut pixels));
+            pixels
+        };
+        // Left to itself rayon hands out quarters of a picture, one of which may take longer than the others.
+        let bands = (0..rows.div_ceil(band_rows))
+            .into_par_iter()
+            .with_max_len(1);
         Self {
             width,
-            top: usize::from(top),
-            pixels: pixels.with_min_len(MIN_FILLED).collect(),
+            bands: bands.map(band).collect(),
         }
-    }
-
-    /// Bands of as many rows each, the last of perhaps fewer.
-    pub(crate) fn bands(
-        &mut self,
-        rows: usize,
-    ) -> impl IndexedParallelIterator<Item = Band<'_, C>> {
-        let (width, top) = (self.width, self.top);
-        self.pixels
-            .par_chunks_mut(width * rows)
-            .enumerate()
-            .map(move |(index, pixels)| Band::new(width, top + index * rows, pixels))
     }
 
     /// The pixels of each row, three bytes each: what the display would show.
     pub(crate) fn into_rows_rgb888(self) -> impl Iterator<Item = Vec<u8>> {
-        let rows = self.pixels.len() / self.width;
-        (0..rows).map(move |row| {
-            self.pixels[row * self.width..][..self.width]
-                .iter()
-                .flat_map(|color| {
-                    let color: Rgb888 = (*color).into();
-                    [color.r(), color.g(), color.b()]
-                })
-                .collect()
+        let width = self.width;
+        self.bands.into_iter().flat_map(move |band| {
+            let rows: Vec<Vec<u8>> = band.chunks(width).map(row_rgb888).collect();
+            rows
         })
     }
+}
+
+fn row_rgb888<C: Copy + Into<Rgb888>>(row: &[C]) -> Vec<u8> {
+    row.iter()
+        .flat_map(|color| {
+            let color: Rgb888 = (*color).into();
+            [color.r(), color.g(), color.b()]
+        })
+        .collect()
 }
 
 impl<'c, C> Band<'c, C> {
@@ -146,13 +147,10 @@ mod tests {
 
     /// The bytes of a picture that one band draws with `draw`.
     fn drawn<C: DisplayColor + Into<Rgb888> + Send + Sync>(
-        [width, top, rows]: [u16; 3],
+        area: [u16; 3],
         draw: impl Fn(&mut Band<'_, C>) + Sync,
     ) -> Vec<Vec<u8>> {
-        let mut canvas = Canvas::<C>::new(width, top, rows);
-        canvas
-            .bands(usize::from(rows))
-            .for_each(|mut band| draw(&mut band));
+        let canvas = Canvas::<C>::draw(area, area[2].into(), draw);
         canvas.into_rows_rgb888().collect()
     }
 

@@ -8,7 +8,6 @@ use std::time::{Duration, Instant};
 use cpu_time::ProcessTime;
 use embedded_graphics::Drawable;
 use embedded_graphics::pixelcolor::Rgb888;
-use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use scanray::{DisplayColor, Picture, PixelSource, Quantizer};
 
@@ -128,14 +127,10 @@ where
 
         let (picture, progress) = (&self.picture, self.progress);
         let canvas = self.workers.install(|| {
-            let mut canvas = Canvas::new(width, top, rows);
-            // Left to itself rayon hands out quarters of a picture, one of which may take longer than the others.
-            let bands = canvas.bands(BAND_ROWS).with_max_len(1);
-            bands.for_each(|mut band| {
-                let Ok(()) = picture.draw(&mut band);
+            Canvas::draw([width, top, rows], BAND_ROWS, |band| {
+                let Ok(()) = picture.draw(band);
                 progress.advance(band.rows());
-            });
-            canvas
+            })
         });
         self.time += start.elapsed();
         self.cpu_time += cpu_start.elapsed();

@@ -71,7 +71,7 @@ pub(super) struct LeafObject {
 }
 
 /// So many rays of a vector do not go on together where there is a tree for single ones.
-const FEW: u32 = 2;
+const FEW: u32 = 3;
 
 /// In a tree of fewer spheres the rays of a vector had better stay together.
 pub(super) const FEWEST_FOR_SINGLES: usize = 4096;
