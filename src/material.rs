@@ -121,7 +121,10 @@ impl<T: Scalar> Material<T> {
     pub fn leaving(&self) -> Interface<T> {
         Interface {
             eta: self.description.index_of_refraction,
-            bend: -(self.bend * self.inverse_index * self.inverse_index),
+            bend: -self
+                .bend
+                .times(self.inverse_index)
+                .times(self.inverse_index),
         }
     }
 

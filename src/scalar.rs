@@ -209,6 +209,12 @@ pub trait Scalar:
         self - other
     }
 
+    /// `self/other`.
+    #[inline(always)]
+    fn over(self, other: Self) -> Self {
+        self / other
+    }
+
     /// The larger of two numbers; the other one when `self` is NaN.
     #[inline(always)]
     fn max(self, other: Self) -> Self {
@@ -446,6 +452,15 @@ impl Scalar for f32 {
             soft_float::add(self, -other)
         } else {
             self - other
+        }
+    }
+
+    #[inline(always)]
+    fn over(self, other: Self) -> Self {
+        if Self::EMULATED {
+            soft_float::divide(self, other)
+        } else {
+            self / other
         }
     }
 

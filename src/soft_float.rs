@@ -162,6 +162,45 @@ fn multiply_extremes(x: u32, y: u32) -> f32 {
     }
 }
 
+/// `x/y`.
+pub(crate) fn divide(x: f32, y: f32) -> f32 {
+    let (x_bits, y_bits) = (x.to_bits(), y.to_bits());
+    let (x_exponent, y_exponent) = (exponent(x_bits), exponent(y_bits));
+    // Far enough from both ends for the exponent of the quotient.
+    const ORDINARY: core::ops::Range<u32> = 65..190;
+    let is_ordinary = ORDINARY.contains(&x_exponent) && ORDINARY.contains(&y_exponent);
+    if HAS_SHORT_PRODUCTS || !is_ordinary {
+        return divide_extremes(x_bits, y_bits);
+    }
+    let significand = |bits: u32| bits & ((1 << FRACTION_BITS) - 1) | 1 << FRACTION_BITS;
+    let (mut left, divisor) = (significand(x_bits), significand(y_bits));
+    // The leading bit of the significand adds 1 to the exponent.
+    let mut exponent = x_exponent + BIAS - 1 - y_exponent;
+    if left < divisor {
+        left <<= 1;
+        exponent -= 1;
+    }
+    // The leading bit, then 24 more, which is one more than is kept.
+    left -= divisor;
+    let mut digits = || {
+        let digits = (left << 8) / divisor;
+        left = (left << 8) - digits * divisor;
+        digits
+    };
+    let (high, middle, low) = (digits(), digits(), digits());
+    let quotient = 1 << 24 | high << 16 | middle << 8 | low;
+    // No quotient lies in the middle between two numbers.
+    let magnitude = (exponent << FRACTION_BITS) + (quotient >> 1) + (quotient & 1);
+    f32::from_bits((x_bits ^ y_bits) & SIGN | magnitude)
+}
+
+/// [`divide`] by the operator.
+#[cold]
+#[inline(never)]
+fn divide_extremes(x: u32, y: u32) -> f32 {
+    f32::from_bits(x) / f32::from_bits(y)
+}
+
 /// The product of two significands, which has 47 or 48 bits: the upper ones, and 24 below them at the upper end of a word.
 #[inline(always)]
 fn long_product(x: u32, y: u32) -> [u32; 2] {
@@ -371,6 +410,7 @@ mod tests {
             for &y in &numbers {
                 assert!(same(multiply(x, y), x * y), "{x:?} · {y:?}");
                 assert!(same(add(x, y), x + y), "{x:?} + {y:?}");
+                assert!(same(divide(x, y), x / y), "{x:?} / {y:?}");
                 assert_eq!(are_zero(x, y), x == 0.0 && y == 0.0, "{x:?}, {y:?}");
                 let x_fits = x.is_nan() || x.to_bits() <= INFINITY;
                 if x_fits && y.to_bits() <= INFINITY {
@@ -392,6 +432,7 @@ mod tests {
             for &y in &factors {
                 assert!(same(multiply(x, y), x * y), "{x:?} · {y:?}");
                 assert!(same(add(x, y), x + y), "{x:?} + {y:?}");
+                assert!(same(divide(x, y), x / y), "{x:?} / {y:?}");
             }
         }
     }

@@ -138,7 +138,7 @@ impl<T: Scalar> Vec3<T> {
     /// The vector of length 1, for vectors whose square is neither zero nor infinite.
     #[inline(always)]
     pub fn normalize(self) -> Self {
-        self * (T::ONE / self.dot(self).sqrt())
+        self * T::ONE.over(self.dot(self).sqrt())
     }
 
     /// The vector of length 1, whatever the scale, and the length it had as two factors, whose product

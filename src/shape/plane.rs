@@ -75,7 +75,7 @@ impl<T: Scalar> Plane<T> {
         if T::EMULATED && below.is_negative() != slope.is_negative() {
             return None;
         }
-        let t = below / slope;
+        let t = below.over(slope);
         // A ray that leaves the plane is rare among those tested, so that is asked last.
         (t.is_positive() && ray.leaves.object() != self.surface.number).then_some(t)
     }

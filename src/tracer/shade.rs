@@ -44,7 +44,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                 continue;
             }
             let distance = distance_squared.sqrt();
-            let inverse = T::ONE / distance;
+            let inverse = T::ONE.over(distance);
             let direction = to_light * inverse;
             if stage(NEEDS, Needs::SHADOWS) {
                 let shadow = Ray {
