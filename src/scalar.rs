@@ -324,7 +324,11 @@ impl Scalar for f32 {
 
     #[inline(always)]
     fn sqrt(self) -> Self {
-        hardware_sqrt(self)
+        if Self::EMULATED {
+            soft_float::square_root(self)
+        } else {
+            hardware_sqrt(self)
+        }
     }
 
     fn powf(self, exponent: Self) -> Self {
@@ -599,11 +603,7 @@ fn hardware_sqrt(value: f32) -> f32 {
 #[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
 #[inline(always)]
 fn hardware_sqrt(value: f32) -> f32 {
-    if f32::EMULATED {
-        soft_float::square_root(value)
-    } else {
-        libm::sqrtf(value)
-    }
+    libm::sqrtf(value)
 }
 
 /// Binary logarithm of `x` in 0…1 (any positive number works), relative error below 4e-7 also next
