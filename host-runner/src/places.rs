@@ -33,7 +33,7 @@ pub(crate) struct Steps {
 ///
 /// # Errors
 ///
-/// [`Failure::Usage`], and [`Failure::Files`] for a file that cannot be written.
+/// [`Failure::Usage`], also for a file that is one of the scenes, and [`Failure::Files`] for one that cannot be written.
 pub(crate) fn places(
     scenes: &[SceneSource],
     output: Option<&Path>,
@@ -56,7 +56,7 @@ pub(crate) fn places(
         refuse_doubles(scenes, &paths)?;
         paths.iter().map(|path| by_path(path)).collect()
     };
-    match (output, scenes) {
+    let places = match (output, scenes) {
         (None, [_]) => {
             let path = Path::new("output").with_extension(default_extension);
             by_path(&path).map(|files| vec![files])
@@ -70,7 +70,13 @@ pub(crate) fn places(
             output.display(),
             scenes.len()
         ))),
+    }?;
+    for file in places.iter().flatten() {
+        if let Place::File { name, .. } = &file.place {
+            refuse_input_as_output(name, scenes.iter().filter_map(SceneSource::file))?;
+        }
     }
+    Ok(places)
 }
 
 /// The place that `-o` names for one picture in one of these formats.
@@ -128,13 +134,12 @@ pub(crate) fn refuse_input_as_output<'a>(
     let Ok(there) = output.canonicalize() else {
         return Ok(());
     };
-    for input in inputs {
-        if there.is_file() && input.canonicalize().is_ok_and(|input| input == there) {
-            return Err(Failure::Usage(format!(
-                "-o {} would overwrite what is read; name another file",
-                output.display()
-            )));
-        }
+    let is_there = |input: &PathBuf| input.canonicalize().is_ok_and(|input| input == there);
+    if there.is_file() && inputs.into_iter().any(is_there) {
+        return Err(Failure::Usage(format!(
+            "cannot write {}: it would overwrite what is read; name another file",
+            output.display()
+        )));
     }
     Ok(())
 }

@@ -49,6 +49,14 @@ impl SceneSource {
         }
     }
 
+    /// Its file, if it is in one.
+    pub(crate) fn file(&self) -> Option<&PathBuf> {
+        match self {
+            Self::File(path) => Some(path),
+            Self::Default | Self::Stdin => None,
+        }
+    }
+
     /// Its name in messages.
     pub(crate) fn name(&self) -> String {
         match self {

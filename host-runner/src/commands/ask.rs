@@ -16,6 +16,7 @@ use crate::host_pixels::Drawing;
 use crate::host_tracer::HostTracer;
 use crate::image::{self, ImageFormat};
 use crate::output::Place;
+use crate::places::refuse_input_as_output;
 use crate::pools::HostScalar;
 use crate::progress::Progress;
 use crate::scene_data;
@@ -100,7 +101,9 @@ fn draw(source: &SceneSource) -> Result<(), Failure> {
         scene_data::write(out, &scene)?;
         writeln!(out)
     })?;
-    let place = Place::file(Path::new(OUTPUT))?;
+    let output = Path::new(OUTPUT);
+    refuse_input_as_output(output, source.file())?;
+    let place = Place::file(output)?;
     let workers = Workers::new(None)?;
     let size = scene.resolution;
     let tracer = HostTracer::new(scene, size, DEFAULT_MAX_DEPTH)?;

@@ -11,6 +11,7 @@ use crate::console::{print, say};
 use crate::failure::Failure;
 use crate::options::ScalarName;
 use crate::output::Place;
+use crate::places::refuse_input_as_output;
 use crate::pools::HostScalar;
 use crate::scene_file::SceneSource;
 
@@ -70,6 +71,7 @@ fn write<T: HostScalar>(args: &BakeArgs) -> Result<(), Failure> {
     if args.output.as_os_str() == "-" {
         return print(write);
     }
+    refuse_input_as_output(&args.output, source.file())?;
     let place = Place::file(&args.output)?;
     place.write(write)?;
     say(format_args!("file {} saved", place.name()));

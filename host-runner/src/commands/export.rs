@@ -10,6 +10,7 @@ use crate::console::{print, say};
 use crate::failure::Failure;
 use crate::options::{ScalarName, Size, max_depth};
 use crate::output::Place;
+use crate::places::refuse_input_as_output;
 use crate::pools::HostScalar;
 use crate::povray::PovScene;
 use crate::scene_file::SceneSource;
@@ -65,8 +66,11 @@ pub(crate) struct ExportArgs {
 ///
 /// [`Failure`].
 pub(crate) fn run(args: &ExportArgs) -> Result<ExitCode, Failure> {
-    let place = place(&args.output)?;
     let source = SceneSource::named(Some(&args.scene));
+    let place = place(&args.output)?;
+    if let Some(Place::File { name, .. }) = &place {
+        refuse_input_as_output(name, source.file())?;
+    }
     let text = source.read()?;
     if args.scalar == ScalarName::F32 {
         // What scanray cannot draw in f32 is no scene for the other commands either.

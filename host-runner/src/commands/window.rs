@@ -15,6 +15,7 @@ use embedded_graphics_simulator::{
     OutputSettingsBuilder, SimulatorDisplay, SimulatorEvent, Window,
 };
 use scanray::{Picture, Quantizer, Resolution, Scene};
+use sdl2::VideoSubsystem;
 
 use crate::console::{print, say};
 use crate::cost::{Core, MODEL};
@@ -277,9 +278,8 @@ fn open(
     settings: &embedded_graphics_simulator::OutputSettings,
     display: &SimulatorDisplay<Rgb888>,
 ) -> Result<Window, Failure> {
-    if !has_screen() {
-        return Err(no_display());
-    }
+    // Held until the window has it too: a display that nobody uses may vanish in between, as an X server's that starts anew.
+    let _screen = screen().ok_or_else(no_display)?;
     let hook = panic::take_hook();
     panic::set_hook(Box::new(|_| {}));
     let window = panic::catch_unwind(AssertUnwindSafe(|| {
@@ -291,13 +291,13 @@ fn open(
     window.map_err(|_| no_display())
 }
 
-/// Whether SDL shows windows to somebody. Without a display it takes a driver that shows them to nobody, which
+/// Where SDL shows windows to somebody. Without a display it takes a driver that shows them to nobody, which
 /// is wanted only where the user has named it.
-fn has_screen() -> bool {
-    std::env::var_os("SDL_VIDEODRIVER").is_some_and(|name| !name.is_empty())
-        || sdl2::init().and_then(|sdl| sdl.video()).is_ok_and(|video| {
-            !["offscreen", "dummy", "evdev"].contains(&video.current_video_driver())
-        })
+fn screen() -> Option<VideoSubsystem> {
+    let video = sdl2::init().and_then(|sdl| sdl.video()).ok()?;
+    let is_named = std::env::var_os("SDL_VIDEODRIVER").is_some_and(|name| !name.is_empty());
+    let is_hidden = ["offscreen", "dummy", "evdev"].contains(&video.current_video_driver());
+    (is_named || !is_hidden).then_some(video)
 }
 
 fn no_display() -> Failure {

@@ -2,17 +2,56 @@
 
 use scanray::{Object, Scalar, Scene, Tracer};
 
-use super::Axis;
+use super::{Axis, crossings};
 
 /// Columns and rows of the rays that look for what is in view.
 const PROBES: [u16; 2] = [64, 48];
+
+/// How far between the camera and the middle of what is in view the axis is looked for, in percent of the way: from half
+/// of it to half beyond.
+const FARTHEST: i32 = 50;
+const STRIDE: i32 = 5;
+
+/// As many steps as the longest turntables have, so that the axis is the same for any number.
+const STEPS: u16 = 360;
+
+/// The axis through the middle of what is in view or, where the camera would pass through objects around that, the nearest
+/// on the way from the camera, or beyond, around which it passes through nothing; with room to spare on both sides.
+/// In a closed room there may be no such axis: then it is the middle. `None` if only the background is seen.
+pub(crate) fn default_axis<T: Scalar>(scene: Scene<'_, T>) -> Option<Axis> {
+    let middle = axis_in_view(scene)?;
+    let camera = scene.camera.position;
+    let at = |percent: i32| {
+        let between = |from: T, to: f64| {
+            let from = from.to_f64();
+            rounded(from + (to - from) * f64::from(percent) / 100.0)
+        };
+        Some(Axis {
+            x: between(camera.x, middle.x)?,
+            z: between(camera.z, middle.z)?,
+        })
+    };
+    let is_clear =
+        |percent| at(percent).is_some_and(|axis| crossings(scene, STEPS, axis).is_empty());
+    let mut places = (0..=FARTHEST)
+        .step_by(STRIDE as usize)
+        .flat_map(|off| [100 - off, 100 + off]);
+    places
+        .find(|&place| {
+            [place, place - STRIDE, place + STRIDE]
+                .into_iter()
+                .all(is_clear)
+        })
+        .and_then(at)
+        .or(Some(middle))
+}
 
 /// The axis through the middle of what is in view: the median, over the picture, of the centres of the
 /// spheres and of the places on triangles that are seen, or of places on planes if there is nothing else.
 /// Rounded to four digits, so that it can be given again. `None` if only the background is seen.
 ///
 /// It is the picture in the scene's own size that counts, so that the axis is the scene's, whatever is drawn of it.
-pub(crate) fn axis_in_view<T: Scalar>(scene: Scene<'_, T>) -> Option<Axis> {
+fn axis_in_view<T: Scalar>(scene: Scene<'_, T>) -> Option<Axis> {
     let resolution = scene.resolution;
     let tracer = Tracer::new(scene).with_tree();
     let (mut bodies, mut floors) = (Vec::new(), Vec::new());
@@ -49,6 +88,10 @@ pub(crate) fn axis_in_view<T: Scalar>(scene: Scene<'_, T>) -> Option<Axis> {
 fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
-    let median = values.get(values.len() / 2)?;
-    format!("{median:.3e}").parse().ok()
+    rounded(*values.get(values.len() / 2)?)
+}
+
+/// Four digits of a number.
+fn rounded(value: f64) -> Option<f64> {
+    format!("{value:.3e}").parse().ok()
 }

@@ -17,7 +17,7 @@ use scanray::{
     SceneError, Vec3,
 };
 
-pub(crate) use axis::axis_in_view;
+pub(crate) use axis::default_axis;
 pub(crate) use path::{Crossing, crossings};
 
 /// A vertical axis: all points with this x and z.

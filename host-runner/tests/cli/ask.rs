@@ -94,3 +94,17 @@ fn a_picture_that_cannot_be_written_is_told() {
         run.stderr
     );
 }
+
+#[test]
+fn a_scene_is_not_overwritten_by_its_picture() {
+    let folder = Folder::new();
+    folder.write("output.ppm", SMALL_SCENE);
+    let run = folder.run_with_input(&["ask"], b"0\noutput.ppm\n");
+    assert_eq!(run.code, 2, "{}", run.stderr);
+    assert!(
+        run.stderr.contains("would overwrite what is read"),
+        "{}",
+        run.stderr
+    );
+    assert!(folder.read("output.ppm") == SMALL_SCENE.as_bytes());
+}

@@ -22,6 +22,46 @@ fn a_run_that_fails_leaves_the_older_picture() {
 }
 
 #[test]
+fn a_scene_is_not_overwritten_by_what_is_made_of_it() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path("pictures")).unwrap();
+    // A scene may be called anything.
+    let names = [
+        "scene.txt",
+        "output.ppm",
+        "turn-001.png",
+        "scene.pov",
+        "pictures/a.ppm",
+    ];
+    for name in names {
+        folder.write(name, SMALL_SCENE);
+    }
+    for arguments in [
+        &["bake", "scene.txt", "-o", "scene.txt"][..],
+        &["bake", "scene.txt", "-o", "pictures/../scene.txt"],
+        &["export", "scene.pov", "-o", "scene.pov"],
+        &["render", "output.ppm"],
+        &["render", "output.ppm", "-o", "output.ppm"],
+        &[
+            "render",
+            "turn-001.png",
+            "-o",
+            "turn.png",
+            "--turntable",
+            "2",
+        ],
+        &["render", "scene.txt", "pictures/a.ppm", "-o", "pictures"],
+    ] {
+        let said = folder.fail(2, arguments);
+        assert!(said.contains("it would overwrite what is read"), "{said}");
+    }
+    for name in names {
+        assert!(folder.read(name) == SMALL_SCENE.as_bytes(), "{name}");
+    }
+    assert_eq!(folder.names().len(), 5);
+}
+
+#[test]
 fn places_that_cannot_be_written_are_named_before_anything_is_drawn() {
     let folder = Folder::new();
     folder.write("file", "");

@@ -160,21 +160,22 @@ fn the_axis_goes_through_what_is_in_view() {
             )
             .stderr
     };
-    // The glass sphere in the middle of the default scene.
+    // The glass sphere in the middle of the default scene is at 0,2.5; but about its centre the camera would pass through
+    // another one.
     let said = turn(&[&scene("default")]);
     assert!(
-        said.contains("turns about x = 0, z = 2.5 (--about 0,2.5).\n"),
+        said.contains("turns about x = 0, z = 2.125 (--about 0,2.125).\n"),
         "{said}"
     );
     let by_default = folder.read("output.gif");
-    assert!(!turn(&[&scene("default"), "--about", "0,2.5"]).contains("turns about"));
+    assert!(!turn(&[&scene("default"), "--about", "0,2.125"]).contains("turns about"));
     assert!(folder.read("output.gif") == by_default);
     turn(&[&scene("default"), "--about", "-1,2.5"]);
     assert!(folder.read("output.gif") != by_default);
     // It is the scene's, whatever size is drawn.
     for size in [&["--size", "30x60"][..], &["--display", "ssd1331"]] {
         let run = folder.succeed(&[&["render", "--turntable", "1"], size].concat());
-        assert!(run.stderr.contains("(--about 0,2.5)"), "{}", run.stderr);
+        assert!(run.stderr.contains("(--about 0,2.125)"), "{}", run.stderr);
     }
     // Nothing but sky.
     folder.write(
@@ -217,35 +218,56 @@ fn json_counts_the_pictures_of_a_file_together() {
 fn a_camera_that_leaves_the_room_is_told() {
     let folder = Folder::new();
     let turn = |name: &str, about: &[&str]| {
-        let turntable = ["render", "--turntable", "8", "--size", "8x6", &scene(name)];
+        let turntable = ["render", "--turntable", "8", "--size", "8x6", name];
         folder.succeed(&[&turntable[..], about].concat()).stderr
     };
-    for (name, places, on_the_spot) in [
+    for (name, about, places, on_the_spot) in [
         (
             "mirror-room",
+            "0.05865,1.5",
             "after step 1 (line 15), after step 4 (lines 14, 15), after step 6 (line 14)",
             "0,-1.3",
         ),
         (
             "window-room",
+            "0.24,1.5",
             "after step 2 (line 34), after step 5 (line 38)",
             "0.2,-1.6",
         ),
         // Into the sphere and out of it.
         (
             "default",
+            "0,2.5",
             "after step 4 (line 10), after step 5 (line 10)",
             "0,0",
         ),
     ] {
-        let said = turn(name, &[]);
+        let said = turn(&scene(name), &["--about", about]);
         let words = format!(
             "{name}.txt: the camera passes through objects: {places}. Turn about another axis, or on the spot: --about \
              {on_the_spot}\n"
         );
         assert!(said.contains(&words), "{said}");
-        let said = turn(name, &["--about", on_the_spot]);
+        let said = turn(&scene(name), &["--about", on_the_spot]);
+        assert!(!said.contains("the camera"), "{said}");
+        // An axis that is not given is one that the camera finds its way around.
+        let said = turn(&scene(name), &[]);
         assert!(!said.contains("the camera"), "{said}");
     }
-    assert!(!turn("reflective", &[]).contains("the camera"));
+    for name in ["pyramids", "reflective"] {
+        let said = turn(&scene(name), &[]);
+        assert!(!said.contains("the camera"), "{said}");
+    }
+    // A wall that is all there is in view: what turns about it passes through it.
+    folder.write(
+        "wall.txt",
+        "1\n0 0 0\n9 7\n0 0 0 1 1 1 1 1 1\n1\n0\n0 0 0\n\
+         1 0 0 -1 1 .5 .5 .5 0 0 0 1 1 1 0 1 0 0\n",
+    );
+    let said = turn("wall.txt", &[]);
+    assert!(said.contains("(--about 0,1).\n"), "{said}");
+    assert!(
+        said.contains("the camera passes through objects: "),
+        "{said}"
+    );
 }

@@ -27,7 +27,7 @@ use crate::render_report::{Pools, RenderReport, TurntableReport};
 use crate::scene_data;
 use crate::scene_file::SceneSource;
 use crate::scene_lines::object_lines;
-use crate::turntable::{Axis, Crossing, Turntable, axis_in_view, crossings};
+use crate::turntable::{Axis, Crossing, Turntable, crossings, default_axis};
 
 /// The pictures of a scene, to be drawn.
 pub(super) struct Job<'a> {
@@ -167,7 +167,7 @@ impl Job<'_> {
         if let Some(axis) = self.args.about {
             return Ok(axis);
         }
-        let axis = axis_in_view(scene).ok_or_else(|| {
+        let axis = default_axis(scene).ok_or_else(|| {
             Failure::Usage(format!(
                 "--turntable: nothing of {} is in view to turn about; give --about X,Z",
                 self.scene.name()

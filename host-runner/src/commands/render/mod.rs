@@ -74,7 +74,7 @@ pub(crate) struct RenderArgs {
     steps: Option<RangeOption>,
 
     /// The vertical axis that the camera circles [default: through the middle of what is in view at the
-    /// scene's own size]
+    /// scene's own size, or near it if the camera passes through objects otherwise]
     #[arg(
         long,
         value_name = "X,Z",
