@@ -58,8 +58,8 @@ pub(crate) struct RenderArgs {
     rows: Option<RangeOption>,
 
     /// Draw the scene from all around, in N steps: the camera circles it to the right, the light stays
-    /// with the scene. A GIF file holds all pictures, PPM and PNG files get numbers. In a closed room the
-    /// camera would leave through a wall, of which a warning tells; --about with the camera's own x and z
+    /// with the scene. A GIF file holds all pictures, PPM and PNG files get numbers. In a small room the
+    /// camera may leave through a wall, of which a warning tells; --about with the camera's own x and z
     /// turns it on the spot
     #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=65_535), allow_negative_numbers = true)]
     turntable: Option<u16>,
