@@ -11,6 +11,7 @@ use std::sync::LazyLock;
 use serde::Serialize;
 
 use super::Work;
+use super::table::{self, Rows};
 
 /// A core there are coefficients for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]
@@ -46,7 +47,7 @@ impl fmt::Display for Core {
 /// What each thing takes: a name and a number for each of [`Core::ALL`].
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Model {
-    terms: Vec<(String, [f64; 3])>,
+    terms: Rows,
 }
 
 /// The model that is checked in.
@@ -55,24 +56,8 @@ pub(crate) static MODEL: LazyLock<Model> = LazyLock::new(|| {
 });
 
 impl Model {
-    /// Reads a table of a header and a line for each term; `#` begins a comment.
     fn parse(text: &str) -> Option<Self> {
-        let mut lines = text
-            .lines()
-            .filter(|line| !line.starts_with('#') && !line.trim().is_empty());
-        let header: Vec<_> = lines.next()?.split_whitespace().collect();
-        let columns = Core::ALL.map(|core| header.iter().position(|word| *word == core.name()));
-        let terms = lines
-            .map(|line| {
-                let words: Vec<_> = line.split_whitespace().collect();
-                let mut numbers = [0.0; 3];
-                for (number, column) in numbers.iter_mut().zip(columns) {
-                    *number = words.get(column?)?.parse().ok()?;
-                }
-                Some((words.first()?.to_string(), numbers))
-            })
-            .collect::<Option<_>>()?;
-        Some(Self { terms })
+        table::parse(text).map(|terms| Self { terms })
     }
 
     /// Instructions a pixel on each core.

@@ -3,6 +3,7 @@
 mod cycles;
 mod emulation;
 mod instructions;
+mod table;
 mod work;
 
 pub(crate) use cycles::{Span, cycles};
