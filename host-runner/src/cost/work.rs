@@ -3,7 +3,9 @@
 use std::ops::{Add, Range};
 
 use rayon::prelude::*;
-use scanray::{LightAtHit, Meeting, Object, Observer, Ray, RayKind, Scalar, Scene, TestKind, Vec3};
+use scanray::{
+    Color, LightAtHit, Meeting, Object, Observer, Ray, RayKind, Scalar, Scene, TestKind, Vec3,
+};
 
 use crate::drawing::Workers;
 
@@ -51,6 +53,20 @@ work! {
     triangle_tests,
     /// Tests against the boxes of the tree of a large scene.
     box_tests,
+    /// Tests against spheres that no look in integers decides: what a core without hardware for floats tests exactly.
+    exact_sphere_tests,
+    /// The same for the balls of triangles.
+    exact_ball_tests,
+    /// Tests against planes whose normal is not along an axis.
+    slanted_plane_tests,
+    /// Tests against planes that lie ahead: they take a division.
+    plane_divisions,
+    /// Tests against spheres of a scene with several: they pass a loop.
+    sphere_tests_in_loops,
+    /// The same for planes.
+    plane_tests_in_loops,
+    /// The same for triangles.
+    triangle_tests_in_loops,
     /// Tests against spheres that the ray's line crosses: they take a root.
     sphere_crossings,
     /// Tests against triangles whose bounding ball the ray's line crosses: they take the exact test.
@@ -61,14 +77,28 @@ work! {
     plane_hits,
     /// The same for triangles.
     triangle_hits,
-    /// Of these, those on materials that bend rays.
+    /// Hits on planes and triangles whose normal is not along an axis.
+    slanted_hits,
+    /// Hits on materials that bend rays.
     bending_hits,
+    /// Hits on materials of an ambient colour that is not grey.
+    colored_hits,
+    /// Rays that meet nothing but the sky, shadow rays left out.
+    sky_rays,
+    /// Lights that stand behind the surface of a hit.
+    lights_behind,
     /// Lights that reach a hit.
     lit,
+    /// Of these, those that reach a diffuse colour that is not grey.
+    colored_lit,
+    /// Lights that reach a hit whose material has highlights.
+    lit_glossy,
     /// Lights that show a highlight.
     highlights,
     /// Objects that are looked at for a row of samples: whether its rays can meet them.
     row_checks,
+    /// Rays, shadow rays left out, of a scene with planes: they pass a loop more, and code that is larger.
+    rays_among_planes,
     /// Rays, shadow rays left out, of a scene with triangles: they pass a loop more, and code that is larger.
     rays_among_triangles,
     /// Shadow rays of such a scene.
@@ -83,6 +113,10 @@ work! {
     compared_pixels,
     /// Rays, shadow rays left out, of pictures whose pixels are compared: they take more than others.
     compared_rays,
+    /// Tests of such pictures.
+    compared_tests,
+    /// Rays, shadow rays left out, of such pictures of scenes with triangles.
+    compared_rays_among_triangles,
     /// Hits of pictures with a cut-off: whether their secondary rays show is looked at.
     cutoff_hits,
 }
@@ -92,9 +126,9 @@ work! {
 pub(crate) struct Circumstances {
     /// Rows of samples that were begun.
     pub(crate) scanlines: u64,
-    /// Objects of the scene.
-    pub(crate) objects: u64,
-    pub(crate) has_triangles: bool,
+    /// Spheres, planes and triangles of the scene.
+    pub(crate) objects: [u64; 3],
+    pub(crate) has_sky: bool,
     pub(crate) has_cutoff: bool,
     /// Samples a pixel, or those of the pixels that differ from a neighbour.
     pub(crate) samples: u64,
@@ -107,8 +141,12 @@ impl Circumstances {
     pub(crate) fn of<T: Scalar>(scene: &Scene<'_, T>, scanlines: u64) -> Self {
         Self {
             scanlines,
-            objects: scene.object_count() as u64,
-            has_triangles: !scene.triangles.is_empty(),
+            objects: [
+                scene.spheres.len() as u64,
+                scene.planes.len() as u64,
+                scene.triangles.len() as u64,
+            ],
+            has_sky: scene.background.sky,
             has_cutoff: false,
             samples: 1,
             is_adaptive: false,
@@ -147,7 +185,7 @@ impl Work {
         let Circumstances {
             scanlines,
             objects,
-            has_triangles,
+            has_sky,
             has_cutoff,
             samples,
             is_adaptive,
@@ -155,9 +193,16 @@ impl Work {
         let rays = self.primary_rays + self.reflected_rays + self.refracted_rays;
         let hits = self.sphere_hits + self.plane_hits + self.triangle_hits;
         let has_tree = self.box_tests > 0;
+        let [spheres, planes, triangles] = objects;
+        let has_triangles = triangles > 0;
         let if_so = |so: bool, count: u64| if so { count } else { 0 };
         Self {
-            row_checks: scanlines * objects,
+            sphere_tests_in_loops: if_so(spheres > 1, self.sphere_tests),
+            plane_tests_in_loops: if_so(planes > 1, self.plane_tests),
+            triangle_tests_in_loops: if_so(triangles > 1, self.triangle_tests),
+            sky_rays: if_so(has_sky, rays.saturating_sub(hits)),
+            row_checks: scanlines * objects.iter().sum::<u64>(),
+            rays_among_planes: if_so(planes > 0, rays),
             rays_among_triangles: if_so(has_triangles && !has_tree, rays),
             shadow_rays_among_triangles: if_so(has_triangles && !has_tree, self.shadow_rays),
             tree_rays: if_so(has_tree, rays),
@@ -165,6 +210,8 @@ impl Work {
             added_samples: if_so(samples > 1, self.primary_rays),
             compared_pixels: if_so(is_adaptive, self.pixels),
             compared_rays: if_so(is_adaptive, rays),
+            compared_tests: if_so(is_adaptive, self.tests()),
+            compared_rays_among_triangles: if_so(is_adaptive && has_triangles, rays),
             cutoff_hits: if_so(has_cutoff, hits),
             ..self
         }
@@ -186,6 +233,14 @@ pub(crate) struct Counter<T> {
     work: Work,
     /// The ray under way, shadow rays aside: the distance of the closest meeting so far, and its shape.
     closest: Option<(T, Shape)>,
+    /// What of the material of the hit under way decides about the cost of light.
+    lighting: Lighting,
+}
+
+#[derive(Clone, Copy, Default)]
+struct Lighting {
+    is_colored: bool,
+    is_glossy: bool,
 }
 
 #[derive(Clone, Copy)]
@@ -201,6 +256,7 @@ impl<T: Scalar> Counter<T> {
         Self {
             work: Work::default(),
             closest: None,
+            lighting: Lighting::default(),
         }
     }
 
@@ -233,16 +289,23 @@ impl<T: Scalar> Observer<T> for Counter<T> {
         let (shape, t) = match object {
             Object::Sphere(sphere) => {
                 work.sphere_tests += 1;
+                work.exact_sphere_tests += u64::from(!sphere.clearly_misses(ray));
                 let crosses = crosses(ray, sphere.center(), sphere.radius_squared());
                 work.sphere_crossings += u64::from(crosses);
                 (Shape::Sphere, sphere.intersect(ray, t_max))
             }
             Object::Plane(plane) => {
                 work.plane_tests += 1;
+                let normal = plane.normal();
+                work.slanted_plane_tests += u64::from(!is_along_an_axis(normal));
+                let below = plane.height() - normal.dot(ray.origin);
+                let slope = normal.dot(ray.direction);
+                work.plane_divisions += u64::from((below < T::ZERO) == (slope < T::ZERO));
                 (Shape::Plane, plane.intersect(ray, t_max))
             }
             Object::Triangle(triangle) => {
                 work.triangle_tests += 1;
+                work.exact_ball_tests += u64::from(!triangle.clearly_misses(ray));
                 let (center, squared) = (triangle.ball_center(), triangle.ball_radius_squared());
                 work.ball_crossings += u64::from(crosses(ray, center, squared));
                 let t = triangle.intersect(ray, t_max).map(|(t, _)| t);
@@ -260,6 +323,14 @@ impl<T: Scalar> Observer<T> for Counter<T> {
         let material = meeting.material;
         let bends = material.refraction > T::ZERO && material.index_of_refraction != T::ONE;
         self.work.bending_hits += u64::from(bends);
+        self.work.colored_hits += u64::from(!is_grey(material.ambient));
+        self.lighting = Lighting {
+            is_colored: !is_grey(material.diffuse),
+            is_glossy: !is_black(material.specular),
+        };
+        if !matches!(self.closest, Some((_, Shape::Sphere))) {
+            self.work.slanted_hits += u64::from(!is_along_an_axis(meeting.normal));
+        }
         match self.closest {
             Some((_, Shape::Sphere)) => self.work.sphere_hits += 1,
             Some((_, Shape::Plane)) => self.work.plane_hits += 1,
@@ -269,11 +340,35 @@ impl<T: Scalar> Observer<T> for Counter<T> {
     }
 
     fn light(&mut self, light: LightAtHit<T>) {
-        if let LightAtHit::Reaches { specular, .. } = light {
-            self.work.lit += 1;
-            self.work.highlights += u64::from(specular.is_some());
+        let (work, lighting) = (&mut self.work, self.lighting);
+        match light {
+            LightAtHit::Behind => work.lights_behind += 1,
+            LightAtHit::Reaches { specular, .. } => {
+                work.lit += 1;
+                work.colored_lit += u64::from(lighting.is_colored);
+                work.lit_glossy += u64::from(lighting.is_glossy);
+                work.highlights += u64::from(specular.is_some());
+            }
+            LightAtHit::Enclosed | LightAtHit::Blocked => {}
         }
     }
+}
+
+/// Whether a vector of length 1 is a direction of an axis.
+fn is_along_an_axis<T: Scalar>(unit: Vec3<T>) -> bool {
+    [unit.x, unit.y, unit.z]
+        .iter()
+        .filter(|component| **component == T::ZERO)
+        .count()
+        == 2
+}
+
+fn is_grey<T: Scalar>(color: Color<T>) -> bool {
+    color.r == color.g && color.r == color.b
+}
+
+fn is_black<T: Scalar>(color: Color<T>) -> bool {
+    is_grey(color) && color.r == T::ZERO
 }
 
 /// Whether a ray's line passes a point within a distance.
