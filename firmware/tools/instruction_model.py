@@ -44,16 +44,16 @@ PIXELS = SIZE[0] * SIZE[1]
 
 def setting(**changed):
     """As `scanray report` names it; what is not named is the default."""
-    default = {"max_depth": "5", "cutoff": "0", "sampling": "1 sample", "power": "squaring", "preview": "full",
-               "color": "rgb888", "dither": "false"}
+    default = {"max_depth": 5, "cutoff": 0, "samples": 1, "adaptive": None, "power": "squaring", "preview": "full",
+               "color": "rgb888", "dither": False}
     return default | changed
 
 
 # Such as `scanray tune` recommends.
-RECOMMENDED = [setting(sampling="4 samples", max_depth="3"), setting(sampling="adaptive 1/8", cutoff="1/256"),
-               setting(color="rgb565", dither="true", max_depth="2")]
-SETTINGS = [setting(max_depth="0"), setting(max_depth="2"), setting(), setting(max_depth="8"),
-            setting(cutoff="1/256", max_depth="8"), setting(cutoff="1/64"), *RECOMMENDED]
+RECOMMENDED = [setting(samples=4, max_depth=3), setting(samples=16, adaptive=1 / 8, cutoff=1 / 256),
+               setting(color="rgb565", dither=True, max_depth=2)]
+SETTINGS = [setting(max_depth=0), setting(max_depth=2), setting(), setting(max_depth=8),
+            setting(cutoff=1 / 256, max_depth=8), setting(cutoff=1 / 64), *RECOMMENDED]
 # How far off a prediction may be.
 TOLERANCE = 0.10
 
@@ -126,11 +126,9 @@ def figures(program, path, size, of=None):
     """What the host prints of a picture with a setting, without keeping it."""
     words = [program, "render", path, "--size", f"{size[0]}x{size[1]}", "--json", "-o", os.devnull]
     if of is not None:
-        words += ["--max-depth", of["max_depth"]]
-        kind, *threshold = of["sampling"].split()
-        words += ["--adaptive", *threshold] if kind == "adaptive" else ["--samples", kind]
-        if of["cutoff"] != "0":
-            words += ["--cutoff", of["cutoff"]]
+        words += ["--max-depth", str(of["max_depth"]), "--samples", str(of["samples"]), "--cutoff", str(of["cutoff"])]
+        if of["adaptive"] is not None:
+            words += ["--adaptive", str(of["adaptive"])]
     done = subprocess.run(words, cwd=FIRMWARE, check=True, capture_output=True, text=True)
     return json.loads(done.stdout)
 

@@ -25,32 +25,23 @@ TIMEOUT = 3600
 BOARD_OF = {column: board for board, (_, column, _, _) in BOARDS.items() if board != "virt"}
 # Samples a pixel -> of how many rows one is drawn.
 OF_ROWS = {16: 4, 64: 16}
-# Of adaptive sampling, where there are edges.
-ADAPTIVE_SAMPLES = 16
 BLOCKS = {"full": 1, "half": 2, "quarter": 4}
 
 Code = collections.namedtuple("Code", "method samples has_cutoff color dither power")
 Run = collections.namedtuple("Run", "max_depth cutoff threshold block of_rows")
 
 
-def fraction(word):
-    """`1/8` as Rust writes it."""
-    return "0.0" if word in ("0", None) else "1.0 / {}.0".format(word.removeprefix("1/"))
-
-
 def split(setting):
     """What is compiled, and what is set."""
-    words = setting["sampling"].split()
     block = BLOCKS[setting.get("preview", "full")]
-    threshold, samples, method = None, ADAPTIVE_SAMPLES, "Adaptive"
-    if words[0] == "adaptive":
-        threshold = words[1]
+    samples, threshold, cutoff = setting["samples"], setting["adaptive"], setting["cutoff"]
+    if threshold is not None:
+        method = "Adaptive"
     else:
-        samples, method = int(words[0]), "Preview" if block > 1 else "Fixed"
-    has_cutoff = setting["cutoff"] != "0"
-    code = Code(method, samples, has_cutoff, setting["color"], setting["dither"] == "true", setting["power"])
+        method = "Preview" if block > 1 else "Fixed"
+    code = Code(method, samples, cutoff != 0, setting["color"], setting["dither"], setting["power"])
     of_rows = OF_ROWS.get(samples, 1) if method == "Fixed" else 1
-    return code, Run(int(setting["max_depth"]), fraction(setting["cutoff"]), fraction(threshold), block, of_rows)
+    return code, Run(setting["max_depth"], float(cutoff), float(threshold or 0), block, of_rows)
 
 
 def source(size, code, runs):

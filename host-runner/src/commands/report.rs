@@ -77,6 +77,16 @@ enum Kind {
 
 impl Kind {
     const ALL: [Self; 4] = [Self::Html, Self::Markdown, Self::Csv, Self::Json];
+
+    /// The name of its file; the plots of Markdown are beside it.
+    const fn file(self) -> &'static str {
+        match self {
+            Self::Html => "index.html",
+            Self::Markdown => "report.md",
+            Self::Csv => "report.csv",
+            Self::Json => "report.json",
+        }
+    }
 }
 
 impl std::fmt::Display for Kind {
@@ -108,21 +118,35 @@ pub(crate) fn run(args: &ReportArgs) -> Result<ExitCode, Failure> {
     }
     Sweep::check(resolution)?;
     let folder = &args.output;
-    let is_new = !folder.exists();
-    fs::create_dir_all(folder).map_err(|error| Failure::file("make the folder", folder, error))?;
+    try_folder(folder, &args.only)?;
     let emulator = (!args.emulate.is_empty()).then(Emulator::find);
     if let Some(Err(why)) = &emulator {
         say(format_args!(
             "warning: instructions are predicted, not counted: {why}"
         ));
     }
-    let written = measure_all(&scenes, resolution, args, emulator)
-        .and_then(|document| write(&document, folder, &args.only));
-    if written.is_err() && is_new {
+    let document = measure_all(&scenes, resolution, args, emulator)?;
+    write(&document, folder, &args.only)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn make_folder(folder: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(folder).map_err(|error| Failure::file("make the folder", folder, error))
+}
+
+/// Makes sure that the report can be written, before minutes are spent on it. A folder that is not there yet is there
+/// only when the report is.
+fn try_folder(folder: &Path, kinds: &[Kind]) -> Result<(), Failure> {
+    let is_new = !folder.exists();
+    make_folder(folder)?;
+    let tried = kinds
+        .iter()
+        .try_for_each(|kind| Place::file(&folder.join(kind.file())).map(drop));
+    if is_new {
         // It is empty, unless somebody else put something there.
         let _ = fs::remove_dir(folder);
     }
-    written.map(|()| ExitCode::SUCCESS)
+    tried
 }
 
 /// Reads the scenes and gives each a name of its own: the file's, with folders where that is not enough.
@@ -248,14 +272,15 @@ fn write(document: &Document, folder: &Path, kinds: &[Kind]) -> Result<(), Failu
     let cannot = |error| Failure::file("write the report in", folder, error);
     let mut files: Vec<(String, Vec<u8>)> = Vec::new();
     for kind in kinds {
+        let name = kind.file().to_owned();
         match kind {
             Kind::Html => {
                 let page = report::write_page(document).map_err(cannot)?;
-                files.push(("index.html".to_owned(), page.into_bytes()));
+                files.push((name, page.into_bytes()));
             }
             Kind::Markdown => {
                 let (text, plots) = report::write_markdown(document);
-                files.push(("report.md".to_owned(), text.into_bytes()));
+                files.push((name, text.into_bytes()));
                 files.extend(
                     plots
                         .into_iter()
@@ -265,15 +290,16 @@ fn write(document: &Document, folder: &Path, kinds: &[Kind]) -> Result<(), Failu
             Kind::Csv => {
                 let mut text = Vec::new();
                 report::write_csv(document, &mut text).map_err(cannot)?;
-                files.push(("report.csv".to_owned(), text));
+                files.push((name, text));
             }
             Kind::Json => {
                 let mut text = Vec::new();
                 report::write_json(document, &mut text).map_err(cannot)?;
-                files.push(("report.json".to_owned(), text));
+                files.push((name, text));
             }
         }
     }
+    make_folder(folder)?;
     for (name, content) in &files {
         let place = Place::file(&folder.join(name))?;
         place.write(|file| file.write_all(content))?;

@@ -224,6 +224,7 @@ impl Answer {
             best,
             better,
             cheaper,
+            cheapest,
             tried,
         } = &self.tuned;
         match best {
@@ -240,7 +241,7 @@ impl Answer {
             }
             None => {
                 writeln!(out, "  nothing fits")?;
-                if let Some(cheapest) = better {
+                if let Some(cheapest) = cheapest {
                     line(out, "the cheapest", cheapest)?;
                 }
             }
@@ -311,7 +312,7 @@ fn code(settings: &Settings) -> String {
 fn duration(milliseconds: f64) -> String {
     let (unit, name) = match milliseconds {
         ..1.0 => (1e-3, "µs"),
-        ..1e4 => (1.0, "ms"),
+        ..1e3 => (1.0, "ms"),
         ..6e5 => (1e3, "s"),
         ..3.6e7 => (6e4, "min"),
         ..8.64e8 => (3.6e6, "h"),
@@ -347,7 +348,7 @@ mod tests {
     fn durations_are_readable() {
         let words = [0.25, 17.04, 2500.0, 59_900.0, 5.99e6, 5.99e8, 5.99e10].map(duration);
         let expected = [
-            "250 µs", "17 ms", "2500 ms", "59.9 s", "99.8 min", "166 h", "693 days",
+            "250 µs", "17 ms", "2.5 s", "59.9 s", "99.8 min", "166 h", "693 days",
         ];
         assert_eq!(words, expected);
     }

@@ -71,11 +71,25 @@ fn write_table(text: &mut String, scene: &SceneReport, emulation: &Emulation) {
             .map(|column| (column.cell)(configuration))
             .collect();
         match configuration.verdict {
-            Verdict::Best | Verdict::EqualTo(_) => cells[0] = format!("**{}**", cells[0]),
+            _ if is_worth_having(scene, &configuration.verdict) => {
+                cells[0] = format!("**{}**", cells[0])
+            }
             Verdict::Failed(_) => cells[0].push_str(" (failed)"),
             _ => {}
         }
         text.push_str(&row(cells));
+    }
+}
+
+/// Whether it is on the Pareto front or equal to one that is: what is equal to a dominated one is not.
+fn is_worth_having(scene: &SceneReport, verdict: &Verdict) -> bool {
+    let is_best = |verdict: &Verdict| *verdict == Verdict::Best;
+    match verdict {
+        Verdict::EqualTo(other) => {
+            let other = scene.configurations.get(*other);
+            other.is_some_and(|other| is_best(&other.verdict))
+        }
+        verdict => is_best(verdict),
     }
 }
 

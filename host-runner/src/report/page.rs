@@ -42,7 +42,8 @@ pub(crate) fn write(document: &Document) -> io::Result<String> {
                     p {
                         "What each setting of the renderer costs and what it buys. Each line turns one knob; points further to \
                          the left cost less, points further down are closer to the reference. Ringed points are on the Pareto \
-                         front of their plot: everything else is matched or beaten in both."
+                         front of their plot: of the settings with the same colours and dither, everything else is matched or \
+                         beaten in both."
                     }
                     nav {
                         @for scene in &document.scenes {

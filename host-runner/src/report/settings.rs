@@ -5,6 +5,7 @@ use std::fmt;
 use clap::ValueEnum;
 use scanray::DEFAULT_MAX_DEPTH;
 use serde::{Serialize, Serializer};
+use serde_json::Value;
 
 use crate::cost::Core;
 use crate::knobs::Detail;
@@ -138,38 +139,31 @@ impl fmt::Display for Settings {
 }
 
 impl Settings {
-    /// The names of what can be set, for tables.
-    pub(crate) const FIELDS: [&'static str; 9] = [
-        "scalar",
-        "max_depth",
-        "cutoff",
-        "sampling",
-        "power",
-        "formulas",
-        "preview",
-        "color",
-        "dither",
-    ];
-
-    /// What is set, in the order of [`Settings::FIELDS`].
-    pub(crate) fn words(&self) -> [String; Self::FIELDS.len()] {
+    /// What is set, for programs: the names and units of `scanray render --json`.
+    pub(crate) fn fields(&self) -> [(&'static str, Value); 10] {
+        let one_in = |of: u16| 1.0 / f64::from(of);
+        let (samples, adaptive) = match self.sampling {
+            Sampling::Fixed(samples) => (samples.into(), None),
+            Sampling::Adaptive(of) => (Self::ADAPTIVE_SAMPLES, Some(one_in(of))),
+        };
         [
-            name_of(self.scalar),
-            self.max_depth.to_string(),
-            self.cutoff.map_or("0".to_owned(), |of| format!("1/{of}")),
-            self.sampling.to_string(),
-            name_of(self.power),
-            name_of(self.formulas),
-            name_of(self.preview),
-            name_of(self.color),
-            self.dither.to_string(),
+            ("scalar", name_of(self.scalar).into()),
+            ("max_depth", self.max_depth.into()),
+            ("cutoff", self.cutoff.map_or(0.0, one_in).into()),
+            ("samples", samples.into()),
+            ("adaptive", adaptive.into()),
+            ("power", name_of(self.power).into()),
+            ("formulas", name_of(self.formulas).into()),
+            ("preview", name_of(self.preview).into()),
+            ("color", name_of(self.color).into()),
+            ("dither", self.dither.into()),
         ]
     }
 }
 
 impl Serialize for Settings {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.collect_map(Self::FIELDS.into_iter().zip(self.words()))
+        to.collect_map(self.fields())
     }
 }
 

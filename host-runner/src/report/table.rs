@@ -2,6 +2,8 @@
 
 use std::io::{self, Write};
 
+use serde_json::Value;
+
 use super::document::{Configuration, Cost, Document, Emulation, SceneReport, Verdict};
 use super::errors::Error;
 use super::plot::number;
@@ -191,7 +193,7 @@ pub(crate) fn failed(scene: &SceneReport) -> Vec<String> {
 /// Those of `out`.
 pub(crate) fn write_csv(document: &Document, out: &mut dyn Write) -> io::Result<()> {
     let mut headings: Vec<String> = ["scene", "settings", "verdict"].map(str::to_owned).into();
-    headings.extend(Settings::FIELDS.map(str::to_owned));
+    headings.extend(Settings::DEFAULT.fields().map(|(name, _)| name.to_owned()));
     headings.extend(["rays_per_pixel", "tests_per_pixel"].map(str::to_owned));
     for source in ["by_model", "emulated"] {
         headings.extend(
@@ -241,7 +243,11 @@ fn record(scene: &SceneReport, configuration: &Configuration) -> Vec<String> {
         Verdict::NotForDevices => "not-for-devices",
     };
     let mut record = vec![scene.name.clone(), name.clone(), verdict.to_owned()];
-    record.extend(settings.words());
+    record.extend(settings.fields().map(|(_, value)| match value {
+        Value::String(word) => word,
+        Value::Null => String::new(),
+        value => value.to_string(),
+    }));
     record.extend([work.rays, work.tests].map(|n| n.to_string()));
     let predicted = predicted.map_or([None; 3], |all| all.map(Some));
     record.extend(

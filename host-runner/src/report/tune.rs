@@ -38,10 +38,12 @@ pub(crate) struct Choice {
 pub(crate) struct Tuned {
     /// The least error within the budget; none when nothing fits.
     pub(crate) best: Option<Choice>,
-    /// The next with less error, beyond the budget; the cheapest of all when nothing fits.
+    /// The next with less error, beyond the budget.
     pub(crate) better: Option<Choice>,
     /// The next that takes less.
     pub(crate) cheaper: Option<Choice>,
+    /// The cheapest of all, when nothing fits.
+    pub(crate) cheapest: Option<Choice>,
     /// How many settings were tried.
     pub(crate) tried: usize,
 }
@@ -224,11 +226,17 @@ fn choose(choices: Vec<Choice>, fits: impl Fn(&Choice) -> bool) -> Tuned {
     let tried = choices.len();
     let mut front = front(choices);
     let number_that_fit = front.iter().take_while(|choice| fits(choice)).count();
-    let mut beyond = front.split_off(number_that_fit).into_iter();
+    let beyond = front.split_off(number_that_fit).into_iter().next();
+    let best = front.pop();
+    let (better, cheapest) = match best {
+        Some(_) => (beyond, None),
+        None => (None, beyond),
+    };
     Tuned {
-        best: front.pop(),
+        best,
+        better,
         cheaper: front.pop(),
-        better: beyond.next(),
+        cheapest,
         tried,
     }
 }

@@ -54,10 +54,10 @@ fn writes_page_markdown_csv_and_json() {
     let value = |name| depth_1?.split(',').nth(place(name)?);
     assert_eq!(
         ["max_depth", "cutoff", "power", "color", "dither"].map(value),
-        ["1", "0", "squaring", "rgb888", "false"].map(Some)
+        ["1", "0.0", "squaring", "rgb888", "false"].map(Some)
     );
     let settings = &scenes[0]["configurations"][0]["settings"];
-    assert_eq!(settings.as_object().unwrap().len(), 9);
+    assert_eq!(settings.as_object().unwrap().len(), 10);
 
     let markdown = text("report.md");
     let page = text("index.html");
@@ -234,6 +234,15 @@ fn refuses_what_it_cannot_measure() {
     assert!(!folder.path("out").exists());
     folder.write("file", "");
     folder.fail(4, &["report", "-o", "file", "--size", "4x3"]);
+    // A file of the report that cannot be written is told of at once, too: nothing is measured, so that the older stays.
+    std::fs::create_dir_all(folder.path("taken/report.csv")).unwrap();
+    folder.write("taken/index.html", "older");
+    let words = folder.fail(4, &["report", "-o", "taken", "--size", "4x3"]);
+    assert!(
+        words.contains("report.csv") && words.contains("it is a folder"),
+        "{words}"
+    );
+    assert_eq!(folder.read("taken/index.html"), b"older");
     let words = folder.fail(2, &["report", "-o", "out", "--size", "9000x3"]);
     assert!(words.contains("--size"), "{words}");
     assert!(!folder.path("out").exists());

@@ -52,7 +52,18 @@ fn wait_states_cost() {
 fn says_when_nothing_fits() {
     let (code, json) = tuned("1us", &[]);
     assert_eq!(code, 1);
-    assert!(json["best"].is_null() && json["better"].is_object());
+    assert!(
+        ["best", "better", "cheaper"]
+            .iter()
+            .all(|which| json[which].is_null())
+    );
+    let settings = &json["cheapest"]["settings"];
+    assert!(
+        settings["max_depth"].is_u64()
+            && settings["cutoff"].is_f64()
+            && settings["dither"] == false,
+        "{json}"
+    );
     let folder = Folder::new();
     folder.write("a.txt", SMALL_SCENE);
     let run = folder.run(&[
