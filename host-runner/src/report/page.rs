@@ -117,7 +117,7 @@ fn scene(scene: &SceneReport, emulation: &Emulation) -> io::Result<Markup> {
                     @for (label, [r, g, b]) in level_legend() {
                         span { i style={ "background:rgb(" (r) "," (g) "," (b) ")" } {} (label) } " "
                     }
-                    "grey: none."
+                    "(grey: none)"
                 }
                 div.cards {
                     figure.card {
