@@ -7,7 +7,7 @@ The job is JSON: `size`, width and height; `cores`, of M4F, M3 and M0; `scenes`,
 
 A program is compiled for each way of sampling, with a cut-off or without, for each kind of display and each way to compute powers. What a
 program can set without being compiled again (depth, cut-off, threshold, size of the blocks) is unknown to the compiler. Where
-pixels have 16 or 64 samples, every fourth or 16th row is drawn, and stands for all.
+pixels have 16 or 64 samples, every fourth or 16th row is drawn, or what leaves some eight, and stands for all.
 """
 
 import collections
@@ -23,8 +23,9 @@ from builder import BOARDS, Builder, Failed
 
 TIMEOUT = 3600
 BOARD_OF = {column: board for board, (_, column, _, _) in BOARDS.items() if board != "virt"}
-# Samples a pixel -> of how many rows one is drawn.
+# Samples a pixel -> of how many rows one is drawn, where that leaves enough.
 OF_ROWS = {16: 4, 64: 16}
+ENOUGH_ROWS = 8
 BLOCKS = {"full": 1, "half": 2, "quarter": 4}
 
 Code = collections.namedtuple("Code", "method samples has_cutoff color dither power")
@@ -68,7 +69,8 @@ def rows(run, size):
 
 def count(builder, name, board, scene, size, code, runs):
     """Instructions a pixel of the whole picture, run by run."""
-    runs = [run if size[1] > run.of_rows else run._replace(of_rows=1) for run in runs]
+    most = max(1, size[1] // ENOUGH_ROWS)
+    runs = [run._replace(of_rows=min(run.of_rows, most)) for run in runs]
     image = builder.image(board, "settings", name, proven=False, SCANRAY_SCENE=os.path.abspath(scene),
                           SCANRAY_SETTINGS=source(size, code, runs), SCANRAY_POWER=code.power)
     status, printed = emulate.run(image, TIMEOUT)

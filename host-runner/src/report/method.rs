@@ -114,7 +114,7 @@ fn instructions(emulation: &Emulation) -> String {
                  mps2-an386, mps2-an385 and microbit, while pictures of the size above are drawn row by row from a baked scene \
                  with the stages it needs, compiled for size. A program is compiled for each way of sampling, with a cut-off or \
                  without, for each kind of display and each power routine; depth, cut-off, threshold and block size are unknown to \
-                 the compiler. Of pictures with 16 and 64 samples a pixel each fourth and 16th row was drawn \
+                 the compiler. Of pictures with 16 and 64 samples a pixel each fourth and 16th row was drawn, more of small ones \
                  (firmware/tools/settings.py). On other cores they are {MODEL}.{failures}"
             )
         }
