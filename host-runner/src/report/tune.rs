@@ -278,7 +278,8 @@ mod tests {
         }
     }
 
-    fn depths(limit: f64) -> [Option<usize>; 3] {
+    /// Cheaper, best, better, cheapest.
+    fn depths(limit: f64) -> [Option<usize>; 4] {
         // Depth 3 is dominated by 2; 4 and 5 are equal.
         let choices = vec![
             choice(0, 1.0, 9.0),
@@ -290,14 +291,21 @@ mod tests {
         ];
         let tuned = choose(choices, |choice| choice.milliseconds.most <= limit);
         assert_eq!(tuned.tried, 6);
-        [tuned.cheaper, tuned.best, tuned.better].map(|c| c.map(|c| c.settings.max_depth))
+        let Tuned {
+            cheaper,
+            best,
+            better,
+            cheapest,
+            ..
+        } = tuned;
+        [cheaper, best, better, cheapest].map(|c| c.map(|c| c.settings.max_depth))
     }
 
     #[test]
     fn the_least_error_within_the_budget_and_its_neighbours() {
-        assert_eq!(depths(10.0), [Some(1), Some(2), Some(4)]);
-        assert_eq!(depths(1000.0), [Some(2), Some(4), None]);
-        assert_eq!(depths(2.0), [None, Some(0), Some(1)]);
+        assert_eq!(depths(10.0), [Some(1), Some(2), Some(4), None]);
+        assert_eq!(depths(1000.0), [Some(2), Some(4), None, None]);
+        assert_eq!(depths(2.0), [None, Some(0), Some(1), None]);
     }
 
     #[test]
@@ -325,7 +333,7 @@ mod tests {
 
     #[test]
     fn nothing_fits() {
-        assert_eq!(depths(1.0), [None, None, Some(0)]);
+        assert_eq!(depths(1.0), [None, None, None, Some(0)]);
     }
 
     #[test]
