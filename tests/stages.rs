@@ -5,7 +5,7 @@ mod common;
 
 use common::sampling::bits;
 use common::scenes::load;
-use scanray::{MissingStages, Needs, Resolution, Tracer};
+use scanray::{MissingStages, Needs, Resolution, ScenePools, Tracer};
 
 const SIZE: Resolution = Resolution {
     width: 80,
@@ -14,6 +14,7 @@ const SIZE: Resolution = Resolution {
 
 /// What all scenes of the repository need.
 const COMMON: Needs = Needs::SPHERES
+    .union(Needs::SEVERAL_SPHERES)
     .union(Needs::PLANES)
     .union(Needs::TRIANGLES)
     .union(Needs::LIGHT)
@@ -44,11 +45,23 @@ fn draws_with<const NEEDS: u32>(name: &str) {
 fn the_scenes_have_the_same_bits_with_what_they_need() {
     const STRAIGHT: Needs = COMMON.union(Needs::REFRACTION);
     const BENT: Needs = STRAIGHT.union(Needs::BENDING);
-    draws_with::<{ BENT.union(Needs::SKY).bits() }>("default");
-    draws_with::<{ STRAIGHT.union(Needs::SKY).bits() }>("reflective");
-    draws_with::<{ STRAIGHT.union(Needs::SKY).union(Needs::MANY_OBJECTS).bits() }>("window-room");
-    draws_with::<{ STRAIGHT.union(Needs::PLAIN_BACKGROUND).bits() }>("pyramids");
-    draws_with::<{ COMMON.union(Needs::PLAIN_BACKGROUND).bits() }>("mirror-room");
+    const FACES: Needs = Needs::SEVERAL_TRIANGLES;
+    const WALLS: Needs = Needs::SEVERAL_PLANES.union(FACES);
+    const SKY: Needs = Needs::SKY;
+    const PLAIN: Needs = Needs::PLAIN_BACKGROUND;
+    draws_with::<{ BENT.union(SKY).bits() }>("default");
+    draws_with::<{ STRAIGHT.union(FACES).union(SKY).bits() }>("reflective");
+    draws_with::<
+        {
+            STRAIGHT
+                .union(WALLS)
+                .union(SKY)
+                .union(Needs::MANY_OBJECTS)
+                .bits()
+        },
+    >("window-room");
+    draws_with::<{ STRAIGHT.union(FACES).union(PLAIN).bits() }>("pyramids");
+    draws_with::<{ COMMON.union(WALLS).union(PLAIN).bits() }>("mirror-room");
 }
 
 #[test]
@@ -64,6 +77,53 @@ fn a_missing_stage_is_named() {
         error.to_string(),
         "the scene needs stages that are not compiled in: refraction, bending, sky"
     );
+}
+
+#[test]
+fn loops_are_needed_where_there_are_several() {
+    type Pools = ScenePools<f32, 2, 1, 1, 4, 2>;
+    const LOOPS: Needs = Needs::SEVERAL_SPHERES.union(Needs::SEVERAL_LIGHTS);
+    const REST: Needs = Needs::SEVERAL_PLANES
+        .union(Needs::SEVERAL_TRIANGLES)
+        .union(Needs::MANY_OBJECTS);
+    assert_eq!(Pools::NEEDS, Needs::ALL.without(REST));
+    let none = ScenePools::<f32, 0, 0, 1, 1, 0>::NEEDS;
+    assert!(none.contains(Needs::TRIANGLES));
+    for left_out in [Needs::SPHERES, Needs::PLANES, Needs::LIGHT, LOOPS, REST] {
+        assert!(none.without(left_out) == none, "{left_out}");
+    }
+
+    let mut pools = Pools::new();
+    pools
+        .parse(
+            b"2\n0 0 0\n8 6\n5 5 0 1 1 1 1 1 1\n0.1\n0\n0 0 0\n\
+              0 -1 0 4 1 .1 .1 .1 1 1 1 .5 .5 .5 0 9 0 0\n0 1 0 4 1 .1 .1 .1 1 1 1 .5 .5 .5 0 9 0 0\n",
+        )
+        .unwrap();
+    let one_light = pools.as_scene();
+    assert!(one_light.needs().contains(Needs::SEVERAL_SPHERES));
+    assert!(!one_light.needs().contains(Needs::SEVERAL_LIGHTS));
+    let pixels = || (0..6).flat_map(|y| (0..8).map(move |x| (x, y)));
+    let dark = Tracer::new(one_light);
+    let before: Vec<_> = pixels().map(|(x, y)| bits(dark.pixel(x, y))).collect();
+    let mut light = one_light.lights[0];
+    light.position.x = -5.0;
+    pools.as_mut().add_light(light).unwrap();
+    pools.prepare();
+    let scene = pools.as_scene();
+    assert!(scene.needs().contains(LOOPS));
+    let all = Tracer::new(scene);
+    let few = all.specialize::<{ Pools::NEEDS.bits() }>().unwrap();
+    let mut after = Vec::new();
+    for (x, y) in pixels() {
+        after.push(bits(few.pixel(x, y)));
+        assert_eq!(after.last(), Some(&bits(all.pixel(x, y))), "{x},{y}");
+    }
+    assert_ne!(before, after);
+    let error = all
+        .specialize::<{ Needs::ALL.without(Needs::SEVERAL_LIGHTS).bits() }>()
+        .unwrap_err();
+    assert_eq!(error, MissingStages(Needs::SEVERAL_LIGHTS));
 }
 
 #[test]

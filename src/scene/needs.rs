@@ -59,6 +59,14 @@ stages! {
     PLAIN_BACKGROUND = 11, "plain background";
     /// More objects than an [`ObjectSet`](super::ObjectSet) tells apart.
     MANY_OBJECTS = 12, "many objects";
+    /// More than one sphere.
+    SEVERAL_SPHERES = 13, "several spheres";
+    /// More than one plane.
+    SEVERAL_PLANES = 14, "several planes";
+    /// More than one triangle.
+    SEVERAL_TRIANGLES = 15, "several triangles";
+    /// More than one light.
+    SEVERAL_LIGHTS = 16, "several lights";
 }
 
 impl Needs {
@@ -147,6 +155,9 @@ macro_rules! needs_of_scene {
                     .with_if(Needs::SPHERES, !self.spheres.is_empty())
                     .with_if(Needs::PLANES, !self.planes.is_empty())
                     .with_if(Needs::TRIANGLES, !self.triangles.is_empty())
+                    .with_if(Needs::SEVERAL_SPHERES, self.spheres.len() > 1)
+                    .with_if(Needs::SEVERAL_PLANES, self.planes.len() > 1)
+                    .with_if(Needs::SEVERAL_TRIANGLES, self.triangles.len() > 1)
                     .with_if(Needs::TREE, self.tree.is_some())
                     .with_if(Needs::MANY_OBJECTS, objects > super::ObjectSet::TOLD_APART)
                     .with_if(Needs::SKY, self.background.sky)
@@ -190,6 +201,7 @@ macro_rules! needs_of_scene {
                 needs
                     .with_if(Needs::LIGHT, lit)
                     .with_if(Needs::SPECULAR, shines && lit)
+                    .with_if(Needs::SEVERAL_LIGHTS, lit && self.lights.len() > 1)
                     // A flat object alone has nothing between its lit side and the light; a sphere has
                     // itself, where it is seen from inside.
                     .with_if(

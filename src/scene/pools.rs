@@ -168,18 +168,27 @@ impl<
     const TREE: usize,
 > ScenePools<T, SPHERES, PLANES, TRIANGLES, MATERIALS, LIGHTS, SIDES, TREE>
 {
-    /// The stages that a scene in these pools can need, for [`tracer_for!`](crate::tracer_for): shapes that there is
-    /// no room for are left out, and so is what only scenes of more than 31 objects need, or a tree.
+    /// The stages that a scene in these pools can need, for [`tracer_for!`](crate::tracer_for): what there is no room for
+    /// is left out: shapes and lights, loops where there can be one of them at most, and what only scenes of more than
+    /// 31 objects need, or a tree.
     pub const NEEDS: Needs = {
+        // Spheres, planes, triangles and lights, and what several of them need.
+        let pools = [
+            (SPHERES, Needs::SPHERES, Needs::SEVERAL_SPHERES),
+            (PLANES, Needs::PLANES, Needs::SEVERAL_PLANES),
+            (TRIANGLES, Needs::TRIANGLES, Needs::SEVERAL_TRIANGLES),
+            (LIGHTS, Needs::LIGHT, Needs::SEVERAL_LIGHTS),
+        ];
         let mut missing = Needs::NONE;
-        if SPHERES == 0 {
-            missing = missing.union(Needs::SPHERES);
-        }
-        if PLANES == 0 {
-            missing = missing.union(Needs::PLANES);
-        }
-        if TRIANGLES == 0 {
-            missing = missing.union(Needs::TRIANGLES);
+        let mut i = 0;
+        while i < pools.len() {
+            let (capacity, one, several) = pools[i];
+            missing = match capacity {
+                0 => missing.union(one).union(several),
+                1 => missing.union(several),
+                _ => missing,
+            };
+            i += 1;
         }
         if SPHERES + PLANES + TRIANGLES <= ObjectSet::TOLD_APART {
             missing = missing.union(Needs::MANY_OBJECTS);

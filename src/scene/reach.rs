@@ -105,14 +105,18 @@ pub(crate) struct Members {
 impl Members {
     /// Visits the members that are objects of one shape, which `object` finds by their index, as long as
     /// `visit` gives false; tells whether it gave true. One call for each shape, in their order, whose objects
-    /// have the indices from `start` to `end`.
+    /// have the indices from `start` to `end`; unless there may be `several`, there is no loop.
     #[inline(always)]
     pub(crate) fn walk<O>(
         &mut self,
         Range { start, end }: Range<usize>,
+        several: bool,
         object: impl Fn(usize) -> Option<O>,
         mut visit: impl FnMut(usize, O) -> bool,
     ) -> bool {
+        if self.is_over() {
+            return false;
+        }
         loop {
             // The lowest bit is that of the objects beyond: at the end its place is no index of an object told apart, and
             // it keeps a compiler from asking whether there is a bit at all.
@@ -138,12 +142,18 @@ impl Members {
                 return true;
             }
             self.left &= !(FIRST >> (self.left | 1).leading_zeros());
-            // With a single object there is no loop, out of which a compiler would move all of its tests but
-            // the ray, and so before the question whether it is a member.
-            if end - start == 1 {
+            // Out of a loop for a single object a compiler would move all of its tests but the ray, and so before the
+            // question whether it is a member.
+            if !several || self.is_over() {
                 return false;
             }
         }
+    }
+
+    /// Whether nothing is left for any shape, as far as that is known at once.
+    #[inline(always)]
+    fn is_over(&self) -> bool {
+        !self.many && self.left == 0
     }
 }
 

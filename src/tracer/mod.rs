@@ -385,6 +385,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         let [spheres, planes, triangles] = self.ranges();
         members.walk(
             spheres,
+            stage(NEEDS, Needs::SEVERAL_SPHERES),
             |index| self.sphere(index),
             |index, sphere| {
                 observer.test_object(Object::Sphere(sphere), ray, closest.t);
@@ -399,6 +400,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         );
         members.walk(
             planes,
+            stage(NEEDS, Needs::SEVERAL_PLANES),
             |index| self.plane(index),
             |index, plane| {
                 observer.test_object(Object::Plane(plane), ray, closest.t);
@@ -410,6 +412,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         );
         members.walk(
             triangles,
+            stage(NEEDS, Needs::SEVERAL_TRIANGLES),
             |index| self.triangle(index),
             |index, triangle| {
                 observer.test_object(Object::Triangle(triangle), ray, closest.t);
@@ -446,6 +449,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         let [spheres, planes, triangles] = self.ranges();
         members.walk(
             spheres,
+            stage(NEEDS, Needs::SEVERAL_SPHERES),
             |index| self.sphere(index),
             |_, sphere| {
                 observer.test_object(Object::Sphere(sphere), ray, t_max);
@@ -453,6 +457,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             },
         ) || members.walk(
             planes,
+            stage(NEEDS, Needs::SEVERAL_PLANES),
             |index| self.plane(index),
             |_, plane| {
                 observer.test_object(Object::Plane(plane), ray, t_max);
@@ -460,6 +465,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             },
         ) || members.walk(
             triangles,
+            stage(NEEDS, Needs::SEVERAL_TRIANGLES),
             |index| self.triangle(index),
             |_, triangle| {
                 observer.test_object(Object::Triangle(triangle), ray, t_max);

@@ -2,6 +2,7 @@
 
 use super::{Hit, LightAtHit, Observer, RayKind, Tracer, stage};
 use crate::color::Color;
+use crate::light::Light;
 use crate::material::Material;
 use crate::ray::Ray;
 use crate::scalar::Scalar;
@@ -28,59 +29,76 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             observer.light(LightAtHit::Enclosed);
             return color;
         }
-        let occluders = match hit.zone {
-            Some(zone) => reach.occluders.intersection(zone.occluders()),
-            None => reach.occluders,
-        };
         for light in self.scene.lights {
-            let to_light = light.position - hit.outside;
-            // The sign of N·L, before its length is known: a light behind the surface costs no root.
-            let toward = to_light.component_along(hit.normal);
-            let distance_squared = to_light.dot(to_light);
-            // The distance is 0 only in a light that lies in the hit itself, and underflows only next
-            // to it.
-            if !(toward.is_positive() && distance_squared.is_positive()) {
-                observer.light(LightAtHit::Behind);
-                continue;
+            color = self.lit(ray, hit, light, color, depth, observer);
+            if !stage(NEEDS, Needs::SEVERAL_LIGHTS) {
+                break;
             }
-            let distance = distance_squared.sqrt();
-            let inverse = T::ONE.over(distance);
-            let direction = to_light * inverse;
-            if stage(NEEDS, Needs::SHADOWS) {
-                let shadow = Ray {
-                    origin: hit.outside,
-                    direction,
-                    leaves: hit.facing,
-                };
-                observer.ray(RayKind::Shadow, depth, &shadow);
-                if self.occluded_observed(&shadow, distance, occluders, observer) {
-                    observer.light(LightAtHit::Blocked);
-                    continue;
-                }
-            }
-            let cosine = toward.times(inverse);
-            // Light first, then material: a factor ≤ 1 keeps the product finite, so that 0·∞ cannot
-            // arise from bright lights on bright materials.
-            let diffuse = light.diffuse * cosine * material.diffuse;
-            color = color + diffuse;
-            let mut specular = None;
-            if stage(NEEDS, Needs::SPECULAR) && !material.specular.is_black() {
-                // R·V with R = 2(N·L)N − L and V = −d.
-                let alignment = cosine
-                    .double()
-                    .times(hit.cosine)
-                    .plus(direction.dot(ray.direction));
-                if alignment.upper_half() >= hit.material.faint_alignment()
-                    && alignment.is_positive()
-                {
-                    let highlight = self.phong_power(alignment, hit.material);
-                    let light = light.specular * highlight * material.specular;
-                    color = color + light;
-                    specular = Some(light);
-                }
-            }
-            observer.light(LightAtHit::Reaches { diffuse, specular });
         }
+        color
+    }
+
+    /// A colour, and what a light adds to it.
+    #[inline(always)]
+    fn lit(
+        &self,
+        ray: &Ray<T>,
+        hit: &Hit<'a, T>,
+        light: &Light<T>,
+        color: Color<T>,
+        depth: usize,
+        observer: &mut impl Observer<T>,
+    ) -> Color<T> {
+        let occluders = match hit.zone {
+            Some(zone) => hit.reach.occluders.intersection(zone.occluders()),
+            None => hit.reach.occluders,
+        };
+        let to_light = light.position - hit.outside;
+        // The sign of N·L, before its length is known: a light behind the surface costs no root.
+        let toward = to_light.component_along(hit.normal);
+        let distance_squared = to_light.dot(to_light);
+        // The distance is 0 only in a light that lies in the hit itself, and underflows only next
+        // to it.
+        if !(toward.is_positive() && distance_squared.is_positive()) {
+            observer.light(LightAtHit::Behind);
+            return color;
+        }
+        let distance = distance_squared.sqrt();
+        let inverse = T::ONE.over(distance);
+        let direction = to_light * inverse;
+        if stage(NEEDS, Needs::SHADOWS) {
+            let shadow = Ray {
+                origin: hit.outside,
+                direction,
+                leaves: hit.facing,
+            };
+            observer.ray(RayKind::Shadow, depth, &shadow);
+            if self.occluded_observed(&shadow, distance, occluders, observer) {
+                observer.light(LightAtHit::Blocked);
+                return color;
+            }
+        }
+        let material = hit.material.description();
+        let cosine = toward.times(inverse);
+        // Light first, then material: a factor ≤ 1 keeps the product finite, so that 0·∞ cannot
+        // arise from bright lights on bright materials.
+        let diffuse = light.diffuse * cosine * material.diffuse;
+        let mut color = color + diffuse;
+        let mut specular = None;
+        if stage(NEEDS, Needs::SPECULAR) && !material.specular.is_black() {
+            // R·V with R = 2(N·L)N − L and V = −d.
+            let alignment = cosine
+                .double()
+                .times(hit.cosine)
+                .plus(direction.dot(ray.direction));
+            if alignment.upper_half() >= hit.material.faint_alignment() && alignment.is_positive() {
+                let highlight = self.phong_power(alignment, hit.material);
+                let light = light.specular * highlight * material.specular;
+                color = color + light;
+                specular = Some(light);
+            }
+        }
+        observer.light(LightAtHit::Reaches { diffuse, specular });
         color
     }
 
