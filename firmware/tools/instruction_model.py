@@ -32,7 +32,7 @@ TERMS = ["primary_rays", "reflected_rays", "refracted_rays", "shadow_rays", "sph
          "triangle_hits", "slanted_hits", "bending_hits", "colored_hits", "sky_rays", "lights_behind", "lit", "colored_lit", "lit_glossy",
          "highlights", "row_checks", "rays_among_planes", "rays_among_triangles", "shadow_rays_among_triangles",
          "box_tests", "tree_rays", "tree_shadow_rays", "added_samples", "compared_pixels", "compared_rays", "compared_tests",
-         "compared_rays_among_triangles", "cutoff_hits"]
+         "compared_rays_among_triangles", "branching_hits", "cutoff_hits"]
 MADE_UP = 12
 # Scenes with a tree -> arguments of `scanray generate`.
 LARGE = {"gem": ("icosphere", 80), "ball": ("icosphere", 320), "boulder": ("icosphere", 980), "swarm": ("spheres", 60),

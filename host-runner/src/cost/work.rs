@@ -117,6 +117,8 @@ work! {
     compared_tests,
     /// Rays, shadow rays left out, of such pictures of scenes with triangles.
     compared_rays_among_triangles,
+    /// Hits in scenes with surfaces that reflect or refract: whether this one does is looked at.
+    branching_hits,
     /// Hits of pictures with a cut-off: whether their secondary rays show is looked at.
     cutoff_hits,
 }
@@ -129,6 +131,8 @@ pub(crate) struct Circumstances {
     /// Spheres, planes and triangles of the scene.
     pub(crate) objects: [u64; 3],
     pub(crate) has_sky: bool,
+    /// Whether there are secondary rays, if the depth allows it.
+    pub(crate) has_branches: bool,
     pub(crate) has_cutoff: bool,
     /// Samples a pixel, or those of the pixels that differ from a neighbour.
     pub(crate) samples: u64,
@@ -147,6 +151,10 @@ impl Circumstances {
                 scene.triangles.len() as u64,
             ],
             has_sky: scene.background.sky,
+            has_branches: scene.materials.iter().any(|material| {
+                let of = material.description();
+                of.reflection > T::ZERO || of.refraction > T::ZERO
+            }),
             has_cutoff: false,
             samples: 1,
             is_adaptive: false,
@@ -186,6 +194,7 @@ impl Work {
             scanlines,
             objects,
             has_sky,
+            has_branches,
             has_cutoff,
             samples,
             is_adaptive,
@@ -212,6 +221,7 @@ impl Work {
             compared_rays: if_so(is_adaptive, rays),
             compared_tests: if_so(is_adaptive, self.tests()),
             compared_rays_among_triangles: if_so(is_adaptive && has_triangles, rays),
+            branching_hits: if_so(has_branches, hits),
             cutoff_hits: if_so(has_cutoff, hits),
             ..self
         }
