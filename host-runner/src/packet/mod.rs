@@ -335,21 +335,34 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
                         }
                     }
                 }
-                closest
-                    .object
-                    .store_slice(&mut batch.object[at..at + LANES]);
-                batch::store(&mut batch.t, at, closest.t);
-                for (column, place) in batch.place.iter_mut().zip(closest.place) {
-                    batch::store(column, at, place);
-                }
-                if closest.object.simd_eq(NOTHING).any_true() {
-                    let colors = self.background(simd, rays.direction);
-                    batch.color.store(at, colors);
-                }
+                self.keep(simd, &closest, rays.direction, batch, at);
                 let sides = &batch.leaves[at..batch.len.min(at + LANES)];
                 sides.iter().take_while(|side| **side == leaves).count()
             },
         )
+    }
+
+    /// Puts the nearest hits of eight rays into a batch, and the colours of those that met nothing.
+    #[inline(always)]
+    fn keep<S: Simd>(
+        &self,
+        simd: S,
+        closest: &Closest<S>,
+        direction: Vec3s<S>,
+        batch: &mut Batch,
+        at: usize,
+    ) {
+        closest
+            .object
+            .store_slice(&mut batch.object[at..at + LANES]);
+        batch::store(&mut batch.t, at, closest.t);
+        for (column, place) in batch.place.iter_mut().zip(closest.place) {
+            batch::store(column, at, place);
+        }
+        if closest.object.simd_eq(NOTHING).any_true() {
+            let colors = self.background(simd, direction);
+            batch.color.store(at, colors);
+        }
     }
 
     /// `Tracer::background`.

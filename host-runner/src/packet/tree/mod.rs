@@ -16,7 +16,7 @@ use scanray::{NodeContent, Tree, TreeEntry, TreeNode, Vec3};
 use self::single::Single;
 pub(super) use self::single::WaitingParts;
 use self::wide::{WidePart, WideTree};
-use super::batch::{self, Batch, Group, NOTHING};
+use super::batch::{Batch, Group, NOTHING};
 use super::lanes::{Indices, LANES, Mask, Numbers, Rays, Vec3s, first_lanes};
 use super::shade::hits;
 use super::{Closest, Listed, PacketTracer, shapes};
@@ -446,17 +446,7 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                         }
                     }
                 }
-                closest
-                    .object
-                    .store_slice(&mut batch.object[at..at + LANES]);
-                batch::store(&mut batch.t, at, closest.t);
-                for (column, place) in batch.place.iter_mut().zip(closest.place) {
-                    batch::store(column, at, place);
-                }
-                if closest.object.simd_eq(NOTHING).any_true() {
-                    let colors = self.background(simd, rays.direction);
-                    batch.color.store(at, colors);
-                }
+                self.keep(simd, &closest, rays.direction, batch, at);
                 count
             },
         )
