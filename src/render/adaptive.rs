@@ -18,18 +18,22 @@ pub fn differ<T: Scalar>(a: Color<T>, b: Color<T>, threshold: T) -> bool {
 /// Room for the colour at the centre of a pixel, so that its neighbours need not trace it again.
 #[derive(Clone, Copy, Debug)]
 pub struct CenterSample<T = f32> {
-    /// Row of the pixel; no picture has the row [`u16::MAX`].
-    row: u16,
+    /// Row of the pixel, counted from 1: a `static` of zeros takes no flash. No picture has the row [`u16::MAX`].
+    row_from_1: u16,
     color: Color<T>,
 }
 
 impl<T: Scalar> CenterSample<T> {
     /// Nothing is known.
     pub const EMPTY: Self = Self {
-        row: u16::MAX,
+        row_from_1: 0,
         color: Color::BLACK,
     };
 }
+
+/// The pixels whose centres decide about a pixel, as offsets of its column and row: itself, and its neighbours. The one below
+/// comes last, because it is kept where the one above was.
+const CENTERS: [(i16, i16); 5] = [(0, 0), (-1, 0), (1, 0), (0, -1), (0, 1)];
 
 /// A source of pixels that have more samples where the picture has edges.
 ///
@@ -75,6 +79,26 @@ pub struct AdaptiveScanline<L, const SAMPLES: usize> {
     refined: [L; SAMPLES],
 }
 
+impl<L, const SAMPLES: usize> AdaptiveScanline<L, SAMPLES> {
+    /// For the centres of the row so many rows further: −1, 0 or 1.
+    #[inline(always)]
+    fn of_centers(&self, rows: i16) -> &L {
+        let [above, beside, below] = &self.centers;
+        match rows {
+            ..0 => above,
+            0 => beside,
+            1.. => below,
+        }
+    }
+
+    /// For a sample of the pattern, and where that is.
+    #[inline(always)]
+    fn of_sample(&self, index: usize) -> Option<(&L, Subpixel)> {
+        let at = Supersampled::<(), SAMPLES>::PATTERN.get(index)?;
+        Some((self.refined.get(index)?, *at))
+    }
+}
+
 impl<'c, S: SampleSource, const SAMPLES: usize> Adaptive<'c, S, SAMPLES> {
     /// The picture of a source with more samples at edges. `threshold` is a difference of channels in
     /// 0…1; at 0 every difference is an edge. What `centers` held is forgotten.
@@ -99,61 +123,68 @@ impl<'c, S: SampleSource, const SAMPLES: usize> Adaptive<'c, S, SAMPLES> {
         x: u16,
         observer: &mut impl Observer<S::Scalar>,
     ) -> Color<S::Scalar> {
-        let Resolution { width, height } = self.resolution();
-        let y = scanline.y;
+        let source = self.refined.source();
         let mut own = Color::BLACK;
         let mut is_edge = false;
-        // The pixel itself, then its neighbours; the one below comes last, because it is kept where the
-        // one above was.
-        for (dx, dy) in [(0, 0), (-1, 0), (1, 0), (0, -1), (0, 1)] {
-            let (Some(x), Some(y)) = (x.checked_add_signed(dx), y.checked_add_signed(dy)) else {
-                continue;
+        let mut sum = Color::BLACK;
+        // Centres and samples in one loop, so that the source is compiled once.
+        for step in 0..CENTERS.len() + SAMPLES {
+            let center = CENTERS.get(step).copied();
+            let (column, row) = match center {
+                Some(offset) => match self.neighbor(x, scanline.y, offset) {
+                    Some(place) => place,
+                    None => continue,
+                },
+                None if is_edge => (x, scanline.y),
+                None => return own,
             };
-            if x >= width || y >= height {
-                continue;
+            let room = center.and_then(|_| self.room(column, row));
+            let kept = room
+                .map(Cell::get)
+                .filter(|kept| kept.row_from_1 == row + 1);
+            let color = match kept {
+                Some(kept) => kept.color,
+                None => {
+                    let (line, at) = match center {
+                        Some((_, rows)) => (scanline.of_centers(rows), Subpixel::CENTER),
+                        None => match scanline.of_sample(step - CENTERS.len()) {
+                            Some(sample) => sample,
+                            None => break,
+                        },
+                    };
+                    let color = source.sample(line, column, at, observer);
+                    if let Some(room) = room {
+                        room.set(CenterSample {
+                            row_from_1: row + 1,
+                            color,
+                        });
+                    }
+                    color
+                }
+            };
+            match center {
+                None => sum = sum + color,
+                Some((0, 0)) => own = color,
+                Some(_) => is_edge |= differ(own, color, self.threshold),
             }
-            let color = self.center(scanline, x, y, observer);
-            if (dx, dy) == (0, 0) {
-                own = color;
-            }
-            is_edge |= differ(own, color, self.threshold);
         }
-        if is_edge {
-            self.refined.pixel_observed(&scanline.refined, x, observer)
-        } else {
-            own
-        }
+        Supersampled::<S, SAMPLES>::mean(sum)
     }
 
-    /// The colour at the centre of a pixel of a row or of those next to it, kept or traced.
+    /// The column and row of a pixel so many columns and rows further, if the picture has it.
     #[inline(always)]
-    fn center(
-        &self,
-        scanline: &AdaptiveScanline<S::Scanline, SAMPLES>,
-        x: u16,
-        y: u16,
-        observer: &mut impl Observer<S::Scalar>,
-    ) -> Color<S::Scalar> {
+    fn neighbor(&self, x: u16, y: u16, (dx, dy): (i16, i16)) -> Option<(u16, u16)> {
+        let Resolution { width, height } = self.resolution();
+        let (x, y) = (x.checked_add_signed(dx)?, y.checked_add_signed(dy)?);
+        (x < width && y < height).then_some((x, y))
+    }
+
+    /// Where the centre of a pixel is kept.
+    #[inline(always)]
+    fn room(&self, x: u16, y: u16) -> Option<&'c Cell<CenterSample<S::Scalar>>> {
         let (even, odd) = self.centers.split_at(self.centers.len() / 2);
         let row = if y.is_multiple_of(2) { even } else { odd };
-        let room = row.get(usize::from(x));
-        if let Some(kept) = room.map(Cell::get)
-            && kept.row == y
-        {
-            return kept.color;
-        }
-        let [above, beside, below] = &scanline.centers;
-        let centers = match y {
-            y if y < scanline.y => above,
-            y if y > scanline.y => below,
-            _ => beside,
-        };
-        let source = self.refined.source();
-        let color = source.sample(centers, x, Subpixel::CENTER, observer);
-        if let Some(room) = room {
-            room.set(CenterSample { row: y, color });
-        }
-        color
+        row.get(usize::from(x))
     }
 }
 

@@ -144,6 +144,12 @@ impl<S: SampleSource, const SAMPLES: usize> Supersampled<S, SAMPLES> {
         for (at, scanline) in Self::PATTERN.iter().zip(scanlines) {
             sum = sum + self.source.sample(scanline, x, *at, observer);
         }
+        Self::mean(sum)
+    }
+
+    /// Of the samples of a pixel, from their sum.
+    #[inline(always)]
+    pub(super) fn mean(sum: Color<S::Scalar>) -> Color<S::Scalar> {
         sum * (S::Scalar::ONE / S::Scalar::from_i32(SAMPLES as i32))
     }
 }
