@@ -26,7 +26,7 @@ from builder import FIRMWARE, Builder, Failed, compiler, scenes
 
 TABLE = os.path.join(FIRMWARE, "..", "host-runner", "src", "cost", "instructions.txt")
 CORES = ("M4F", "M3", "M0")
-TERMS = ["primary_rays", "reflected_rays", "refracted_rays", "shadow_rays", "sphere_tests", "plane_tests", "triangle_tests",
+TERMS = ["repeated_pixels", "primary_rays", "reflected_rays", "refracted_rays", "shadow_rays", "sphere_tests", "plane_tests", "triangle_tests",
          "exact_sphere_tests", "exact_ball_tests", "slanted_plane_tests", "plane_divisions", "sphere_tests_in_loops",
          "plane_tests_in_loops", "triangle_tests_in_loops", "sphere_crossings", "ball_crossings", "sphere_hits", "plane_hits",
          "triangle_hits", "slanted_hits", "bending_hits", "colored_hits", "sky_rays", "lights_behind", "lit", "colored_lit", "lit_glossy",
@@ -53,9 +53,13 @@ def setting(**changed):
 RECOMMENDED = [setting(samples=4, max_depth=3), setting(samples=16, adaptive=1 / 8, cutoff=1 / 256),
                setting(color="rgb565", dither=True, max_depth=2)]
 SETTINGS = [setting(max_depth=0), setting(max_depth=2), setting(), setting(max_depth=8),
-            setting(cutoff=1 / 256, max_depth=8), setting(cutoff=1 / 64), *RECOMMENDED]
+            setting(cutoff=1 / 256, max_depth=8), setting(cutoff=1 / 64), *RECOMMENDED, setting(preview="half"), setting(preview="quarter")]
 # How far off a prediction may be.
 TOLERANCE = 0.10
+
+
+# Nothing but the gradient of the sky.
+SKY = "0\n0 0 0\n160 120\n0 9 0 1 1 1 1 1 1\n0.2\n1\n0 0 0\n"
 
 
 def made_up(number):
@@ -96,11 +100,11 @@ def made_up(number):
 def all_scenes(program, folder):
     """Scene name -> path."""
     found = {name: os.path.join(FIRMWARE, path) for name, path in scenes().items()}
-    for number in range(MADE_UP):
-        path = os.path.join(folder, f"made-up-{number}.txt")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(made_up(number))
-        found[f"made up {number}"] = path
+    written = {"sky": SKY} | {f"made up {number}": made_up(number) for number in range(MADE_UP)}
+    for name, text in written.items():
+        found[name] = os.path.join(folder, f"{name}.txt")
+        with open(found[name], "w", encoding="utf-8") as file:
+            file.write(text)
     for name, (kind, count) in LARGE.items():
         found[name] = generate(program, folder, name, kind, count)
     return found
@@ -126,7 +130,8 @@ def figures(program, path, size, of=None):
     """What the host prints of a picture with a setting, without keeping it."""
     words = [program, "render", path, "--size", f"{size[0]}x{size[1]}", "--json", "-o", os.devnull]
     if of is not None:
-        words += ["--max-depth", str(of["max_depth"]), "--samples", str(of["samples"]), "--cutoff", str(of["cutoff"])]
+        words += ["--max-depth", str(of["max_depth"]), "--samples", str(of["samples"]), "--cutoff", str(of["cutoff"]),
+                  "--preview", of["preview"]]
         if of["adaptive"] is not None:
             words += ["--adaptive", str(of["adaptive"])]
     done = subprocess.run(words, cwd=FIRMWARE, check=True, capture_output=True, text=True)

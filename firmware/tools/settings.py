@@ -6,8 +6,8 @@ The job is JSON: `size`, width and height; `cores`, of M4F, M3 and M0; `scenes`,
 `instructions` a pixel; or one with `scene`, `core`, `settings` and `error`, where a program cannot be built or ends with a mistake.
 
 A program is compiled for each way of sampling, with a cut-off or without, for each kind of display and each way to compute powers. What a
-program can set without being compiled again (depth, cut-off, threshold, size of the blocks) is unknown to the compiler. Where
-pixels have 16 or 64 samples, every fourth or 16th row is drawn, or what leaves some eight, and stands for all.
+program can set without being compiled again (depth, cut-off, threshold, size of the blocks) is unknown to the compiler. Of
+a picture that has more than 100,000 samples, as many to each pixel, so many rows are drawn as have 100,000, and stand for all.
 """
 
 import collections
@@ -23,17 +23,16 @@ from builder import BOARDS, Builder, Failed
 
 TIMEOUT = 3600
 BOARD_OF = {column: board for board, (_, column, _, _) in BOARDS.items() if board != "virt"}
-# Samples a pixel -> of how many rows one is drawn, where that leaves enough.
-OF_ROWS = {16: 4, 64: 16}
-ENOUGH_ROWS = 8
+# More samples than that are not drawn of a picture.
+ENOUGH_SAMPLES = 100_000
 BLOCKS = {"full": 1, "half": 2, "quarter": 4}
 
 Code = collections.namedtuple("Code", "method samples has_cutoff color dither power")
 Run = collections.namedtuple("Run", "max_depth cutoff threshold block of_rows")
 
 
-def split(setting):
-    """What is compiled, and what is set."""
+def split(setting, size):
+    """What is compiled, and what is set for a picture of a size."""
     block = BLOCKS[setting.get("preview", "full")]
     samples, threshold, cutoff = setting["samples"], setting["adaptive"], setting["cutoff"]
     if threshold is not None:
@@ -41,7 +40,7 @@ def split(setting):
     else:
         method = "Preview" if block > 1 else "Fixed"
     code = Code(method, samples, cutoff != 0, setting["color"], setting["dither"], setting["power"])
-    of_rows = OF_ROWS.get(samples, 1) if method == "Fixed" else 1
+    of_rows = -(-size[0] * size[1] * samples // ENOUGH_SAMPLES) if method == "Fixed" else 1
     return code, Run(setting["max_depth"], float(cutoff), float(threshold or 0), block, of_rows)
 
 
@@ -69,8 +68,6 @@ def rows(run, size):
 
 def count(builder, name, board, scene, size, code, runs):
     """Instructions a pixel of the whole picture, run by run."""
-    most = max(1, size[1] // ENOUGH_ROWS)
-    runs = [run._replace(of_rows=min(run.of_rows, most)) for run in runs]
     image = builder.image(board, "settings", name, proven=False, SCANRAY_SCENE=os.path.abspath(scene),
                           SCANRAY_SETTINGS=source(size, code, runs), SCANRAY_POWER=code.power)
     status, printed = emulate.run(image, TIMEOUT)
@@ -82,11 +79,11 @@ def count(builder, name, board, scene, size, code, runs):
     return [tick * BOARDS[board][2] / (size[0] * rows(run, size)) for tick, run in zip(ticks, runs)]
 
 
-def jobs(cores, scenes, settings):
+def jobs(size, cores, scenes, settings):
     """(core, scene's index, code, indices of settings), what takes longest first."""
     codes = collections.defaultdict(list)
     for index, setting in enumerate(settings):
-        codes[split(setting)[0]].append(index)
+        codes[split(setting, size)[0]].append(index)
     longest_first = sorted(codes.items(), key=lambda item: (item[0].method != "Adaptive", -item[0].samples))
     slowest_first = sorted(cores, key=["M0", "M3", "M4F"].index)
     for core, (code, indices), scene in itertools.product(slowest_first, longest_first, range(len(scenes))):
@@ -98,7 +95,7 @@ def all_counts(builder, size, cores, scenes, settings):
     core, Failed), in the order in which it is done."""
 
     def work(number, core, scene, code, indices):
-        runs = [split(settings[index])[1] for index in indices]
+        runs = [split(settings[index], size)[1] for index in indices]
         try:
             counted = count(builder, f"settings-{number}", BOARD_OF[core], scenes[scene], size, code, runs)
         except (Failed, OSError) as why:
@@ -106,7 +103,7 @@ def all_counts(builder, size, cores, scenes, settings):
         return [(scene, index, core, instructions) for index, instructions in zip(indices, counted)]
 
     with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count() or 1) as workers:
-        futures = [workers.submit(work, number, *job) for number, job in enumerate(jobs(cores, scenes, settings))]
+        futures = [workers.submit(work, number, *job) for number, job in enumerate(jobs(size, cores, scenes, settings))]
         for done in concurrent.futures.as_completed(futures):
             yield from done.result()
 

@@ -14,7 +14,7 @@ use crate::cost::Core;
 use crate::drawing::Workers;
 use crate::failure::Failure;
 use crate::options::{ColorName, Size, name_of, whole};
-use crate::report::{BothScalars, Budget, Choice, Settings, Sweep, Tuned, tune};
+use crate::report::{BothScalars, Budget, Choice, Sampling, Settings, Sweep, Tuned, tune};
 use crate::scene_file::SceneSource;
 
 /// The command line.
@@ -74,7 +74,7 @@ pub(crate) struct TuneArgs {
     #[arg(long, value_name = "N", value_parser = whole::<u16>(1..=1024), allow_negative_numbers = true)]
     threads: Option<u16>,
 
-    /// Print JSON
+    /// Print JSON: the same in fields, settings by the names of `render --json`
     #[arg(long)]
     json: bool,
 }
@@ -166,7 +166,12 @@ pub(crate) fn run(args: &TuneArgs) -> Result<ExitCode, Failure> {
     let scene = BothScalars::load(&source)?;
     let sweep = Sweep::new(&scene, resolution, &workers)?;
     let tuned = tune(&sweep, &display, &budget)?;
+    let code = tuned
+        .best
+        .as_ref()
+        .map_or(Vec::new(), |best| code(&best.settings, resolution));
     let answer = Answer {
+        code,
         scene: source.name(),
         size: [resolution.width, resolution.height],
         target: args.target,
@@ -202,6 +207,8 @@ struct Answer {
     wait_states: u32,
     #[serde(flatten)]
     tuned: Tuned,
+    /// Lines of Rust that draw with the best.
+    code: Vec<String>,
 }
 
 impl Answer {
@@ -246,8 +253,11 @@ impl Answer {
                 }
             }
         }
-        if let Some(best) = best {
-            writeln!(out, "  in code: {}", code(&best.settings))?;
+        if !self.code.is_empty() {
+            writeln!(out, "  the best in code, for a display of these colours:")?;
+        }
+        for line in &self.code {
+            writeln!(out, "    {line}")?;
         }
         writeln!(
             out,
@@ -285,27 +295,45 @@ fn line(out: &mut dyn Write, what: &str, choice: &Choice) -> io::Result<()> {
     )
 }
 
-/// How a program sets it.
-fn code(settings: &Settings) -> String {
-    use crate::report::Sampling;
+/// How a program draws with the settings on a display of the size and the colours.
+fn code(settings: &Settings, size: Resolution) -> Vec<String> {
+    let Resolution { width, height } = size;
     let cutoff = settings
         .cutoff
         .map_or(String::new(), |of| format!(", cutoff = 1.0 / {of}.0"));
     let depth = settings.max_depth;
-    let tracer = if depth == scanray::DEFAULT_MAX_DEPTH {
-        format!("tracer_for!(SCENE{cutoff})")
-    } else {
-        let stack = depth.max(1);
-        format!("tracer_for!(SCENE{cutoff}, stack = {stack}).with_max_depth({depth})?")
-    };
-    match settings.sampling {
-        Sampling::Fixed(1) => tracer,
-        Sampling::Fixed(samples) => format!("Supersampled::<_, {samples}>::new({tracer})"),
-        Sampling::Adaptive(of) => format!(
-            "Adaptive::<_, {}>::new({tracer}, 1.0 / {of}.0, &mut centers)",
-            Settings::ADAPTIVE_SAMPLES
+    // The stack decides about smaller depths.
+    let (stack, with_depth) = match depth {
+        0 => (", stack = 1".to_owned(), ".with_max_depth(0)?".to_owned()),
+        scanray::DEFAULT_MAX_DEPTH => Default::default(),
+        1..scanray::DEFAULT_MAX_DEPTH => (format!(", stack = {depth}"), String::new()),
+        _ => (
+            format!(", stack = {depth}"),
+            format!(".with_max_depth({depth})?"),
         ),
-    }
+    };
+    let mut lines = vec![
+        format!("let tracer = tracer_for!(SCENE{cutoff}{stack}){with_depth};"),
+        format!(
+            "let tracer = tracer.with_resolution(Resolution {{ width: {width}, height: {height} }});"
+        ),
+    ];
+    let source = match settings.sampling {
+        Sampling::Fixed(1) => "tracer".to_owned(),
+        Sampling::Fixed(samples) => format!("Supersampled::<_, {samples}>::new(tracer)"),
+        Sampling::Adaptive(of) => {
+            lines.push(format!(
+                "let mut centers = [CenterSample::EMPTY; 2 * {width}];"
+            ));
+            let samples = Settings::ADAPTIVE_SAMPLES;
+            format!("Adaptive::<_, {samples}>::new(tracer, 1.0 / {of}.0, &mut centers)")
+        }
+    };
+    let dithered = if settings.dither { ".dithered()" } else { "" };
+    lines.push(format!(
+        "Picture::new({source}){dithered}.draw(&mut display)?;"
+    ));
+    lines
 }
 
 /// Milliseconds in a unit that leaves few digits.

@@ -15,6 +15,7 @@ use super::table::{self, Rows};
 
 /// A core there are coefficients for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]
+#[serde(rename_all = "lowercase")]
 pub(crate) enum Core {
     /// Cortex-M4 with single-precision hardware
     M4f,

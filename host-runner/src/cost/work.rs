@@ -37,6 +37,8 @@ macro_rules! work {
 work! {
     /// Pixels of the picture, whether traced or repeated in a block.
     pixels,
+    /// Pixels that repeat the colour of another in a block.
+    repeated_pixels,
     /// Rays from the camera.
     primary_rays,
     /// Mirror rays.
@@ -206,6 +208,7 @@ impl Work {
         let has_triangles = triangles > 0;
         let if_so = |so: bool, count: u64| if so { count } else { 0 };
         Self {
+            repeated_pixels: self.pixels.saturating_sub(self.primary_rays),
             sphere_tests_in_loops: if_so(spheres > 1, self.sphere_tests),
             plane_tests_in_loops: if_so(planes > 1, self.plane_tests),
             triangle_tests_in_loops: if_so(triangles > 1, self.triangle_tests),

@@ -130,6 +130,7 @@ pub(crate) struct PerPixel {
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Verdict {
     /// On the Pareto front of its display.
+    #[serde(rename = "pareto-front")]
     Best,
     /// The configuration with this index costs and errs as much, to 1 %.
     EqualTo(usize),

@@ -74,9 +74,9 @@ pub(crate) fn paragraphs(document: &Document) -> Vec<Paragraph> {
         ),
         (
             "Pareto front",
-            "Settings whose error is by more than 1 % less than that of every other on the same display that costs no more. \
-             Of settings that differ by less than 1 % in both the first stands for all, and the others are equal to it; \
-             the rest is dominated: there is no reason to choose it. The tables go by instructions on the M4F and the error \
+            "Of the settings on the same display, from the cheapest on, each whose error is by more than 1 % less than that of the \
+             last that was taken. Of settings that differ by less than 1 % in both the first stands for all, and the others are \
+             equal to it; the rest is dominated: there is no reason to choose it. The tables go by instructions on the M4F and the error \
              against R2; each plot rings the front of its own axes."
                 .to_owned(),
         ),
@@ -114,8 +114,8 @@ fn instructions(emulation: &Emulation) -> String {
                  mps2-an386, mps2-an385 and microbit, while pictures of the size above are drawn row by row from a baked scene \
                  with the stages it needs, compiled for size. A program is compiled for each way of sampling, with a cut-off or \
                  without, for each kind of display and each power routine; depth, cut-off, threshold and block size are unknown to \
-                 the compiler. Of pictures with 16 and 64 samples a pixel each fourth and 16th row was drawn, more of small ones \
-                 (firmware/tools/settings.py). On other cores they are {MODEL}.{failures}"
+                 the compiler. Of pictures with more than 100,000 samples, as many to each pixel, so many rows were drawn as have 100,000, \
+                 which stand for all (firmware/tools/settings.py). On other cores they are {MODEL}.{failures}"
             )
         }
     }

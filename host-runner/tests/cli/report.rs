@@ -30,7 +30,7 @@ fn writes_page_markdown_csv_and_json() {
         }
         let on_front = configurations
             .iter()
-            .filter(|c| c["verdict"] == "best")
+            .filter(|c| c["verdict"] == "pareto-front")
             .count();
         assert!(on_front > 0);
     }
@@ -156,7 +156,7 @@ fn settings_that_change_nothing_are_not_worth_having() {
             verdict(name)
         );
     }
-    assert_eq!(verdict("default"), "\"best\"");
+    assert_eq!(verdict("default"), "\"pareto-front\"");
 }
 
 #[test]

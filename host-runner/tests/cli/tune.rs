@@ -49,6 +49,47 @@ fn wait_states_cost() {
 }
 
 #[test]
+fn tells_how_a_program_draws_with_the_best() {
+    let code = |budget: &str, more: &[&str]| {
+        let (_, json) = tuned(budget, more);
+        let settings = json["best"]["settings"].clone();
+        let lines = json["code"].as_array().unwrap().iter();
+        let code: Vec<_> = lines
+            .map(|line| line.as_str().unwrap().to_owned())
+            .collect();
+        (settings, code.join("\n"))
+    };
+    for budget in ["1ms", "3ms", "10ms", "40ms", "10s"] {
+        let (settings, code) = code(budget, &["--color", "rgb565", "--dither"]);
+        assert!(
+            code.contains(".with_resolution(Resolution { width: 16, height: 12 });"),
+            "{code}"
+        );
+        assert!(code.ends_with(".dithered().draw(&mut display)?;"), "{code}");
+        let depth = settings["max_depth"].as_u64().unwrap();
+        assert_eq!(code.contains("stack = "), depth != 5, "{code}");
+        let needs_more = depth == 0 || depth > 5;
+        assert_eq!(
+            code.contains(&format!(".with_max_depth({depth})?")),
+            needs_more,
+            "{code}"
+        );
+        let cutoff = settings["cutoff"].as_f64().unwrap();
+        assert_eq!(code.contains("cutoff = 1.0 / "), cutoff > 0.0, "{code}");
+        let is_adaptive = settings["adaptive"].is_number();
+        assert_eq!(code.contains("&mut centers"), is_adaptive, "{code}");
+        let samples = settings["samples"].as_u64().unwrap();
+        assert_eq!(
+            code.contains(&format!("<_, {samples}>::new(")),
+            samples > 1,
+            "{code}"
+        );
+    }
+    let (_, plain) = code("10ms", &[]);
+    assert!(!plain.contains("dithered"), "{plain}");
+}
+
+#[test]
 fn says_when_nothing_fits() {
     let (code, json) = tuned("1us", &[]);
     assert_eq!(code, 1);
