@@ -8,7 +8,8 @@ use common::random::Random;
 use common::sampling::{self, bits};
 use common::scenes::{self, Model, Part, RoomyPools, Shape};
 use scanray::{
-    Background, Color, Light, MaterialDescription, Resolution, Scalar, ScenePools, Tracer, Vec3,
+    Background, Color, Light, MaterialDescription, Resolution, Scalar, Scene, ScenePools, Tracer,
+    Vec3,
 };
 
 /// Compares the picture of prepared pools with that of pools which know nothing of visibility.
@@ -414,4 +415,32 @@ fn an_object_that_is_refused_changes_nothing() {
     );
     let scene = pools.as_scene();
     assert_eq!((scene.object_count(), scene.sides.len()), before);
+}
+
+/// A sphere of radius 1 where coordinates are 4096 apart is hit from inside, at a point outside of it. (Found by fuzzing.)
+#[test]
+fn a_sphere_smaller_than_the_rounding_of_its_place_has_the_same_bits() {
+    const SIZE: Resolution = Resolution {
+        width: 8,
+        height: 8,
+    };
+    let mut pools: ScenePools = ScenePools::new();
+    pools
+        .parse(
+            b"2\n0 .5 -2\n64 48\n565535 6 -4 1 1 1 .9 .9 .9\n.1\n1\n.5 .5 1\n\
+              0 0 .5 4 2e18 .6 .1 .1 .5 .5 .5 1 1 1 .2 50 0 0\n\
+              0 42949672955 1 .4 1 .6 .1 .1 .5 .5 .5 1 1 1 .2 50 0 0\n",
+        )
+        .unwrap();
+    let scene = pools.as_scene();
+    let prepared = Tracer::new(scene).with_resolution(SIZE);
+    let plain = Tracer::new(Scene {
+        sides: &[],
+        ..scene
+    })
+    .with_resolution(SIZE);
+    for (x, y) in (0..8).flat_map(|y| (0..8).map(move |x| (x, y))) {
+        let expected = plain.radiance(plain.primary_ray(&plain.scanline(y), x));
+        assert_eq!(bits(prepared.pixel(x, y)), bits(expected), "{x},{y}");
+    }
 }

@@ -26,7 +26,7 @@ from builder import FIRMWARE, Builder, Failed, compiler, scenes
 
 TABLE = os.path.join(FIRMWARE, "..", "host-runner", "src", "cost", "instructions.txt")
 CORES = ("M4F", "M3", "M0")
-TERMS = ["repeated_pixels", "primary_rays", "reflected_rays", "refracted_rays", "shadow_rays", "sphere_tests", "plane_tests", "triangle_tests",
+TERMS = ["repeated_pixels", "dithered_pixels", "primary_rays", "reflected_rays", "refracted_rays", "shadow_rays", "sphere_tests", "plane_tests", "triangle_tests",
          "exact_sphere_tests", "exact_ball_tests", "slanted_plane_tests", "plane_divisions", "sphere_tests_in_loops",
          "plane_tests_in_loops", "triangle_tests_in_loops", "sphere_crossings", "ball_crossings", "sphere_hits", "plane_hits",
          "triangle_hits", "slanted_hits", "bending_hits", "colored_hits", "sky_rays", "lights_behind", "lit", "colored_lit", "lit_glossy",
@@ -131,7 +131,7 @@ def figures(program, path, size, of=None):
     words = [program, "render", path, "--size", f"{size[0]}x{size[1]}", "--json", "-o", os.devnull]
     if of is not None:
         words += ["--max-depth", str(of["max_depth"]), "--samples", str(of["samples"]), "--cutoff", str(of["cutoff"]),
-                  "--preview", of["preview"]]
+                  "--preview", of["preview"], "--color", of["color"], *(["--dither"] if of["dither"] else [])]
         if of["adaptive"] is not None:
             words += ["--adaptive", str(of["adaptive"])]
     done = subprocess.run(words, cwd=FIRMWARE, check=True, capture_output=True, text=True)

@@ -211,13 +211,15 @@ fn lies_beside_light<T: Scalar>(from: Ball<T>, light: Vec3<T>, other: Ball<T>) -
     beside || beyond || behind
 }
 
-/// Whether no light reaches a side: inside a sphere that casts a shadow, from lights outside.
+/// Whether no light reaches a side: inside a sphere that casts a shadow, from lights outside. A sphere that is as small as
+/// the rounding of its coordinates has no inside.
 fn is_shadowed<T: Scalar>(scene: &Scene<'_, T>, object: Object<'_, T>, front: bool) -> bool {
     let Object::Sphere(sphere) = object else {
         return false;
     };
     !front
         && casts_shadow(scene, object)
+        && sphere.radius() > margin(size(sphere.center()), T::ZERO)
         && scene.lights.iter().all(|light| {
             let to_light = light.position - sphere.center();
             let lengths = size(light.position) + size(sphere.center());

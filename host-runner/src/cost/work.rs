@@ -39,6 +39,8 @@ work! {
     pixels,
     /// Pixels that repeat the colour of another in a block.
     repeated_pixels,
+    /// Pixels whose colour dither rounds.
+    dithered_pixels,
     /// Rays from the camera.
     primary_rays,
     /// Mirror rays.
@@ -226,6 +228,14 @@ impl Work {
             compared_rays_among_triangles: if_so(is_adaptive && has_triangles, rays),
             branching_hits: if_so(has_branches, hits),
             cutoff_hits: if_so(has_cutoff, hits),
+            ..self
+        }
+    }
+
+    /// The same, shown with dither or without.
+    pub(crate) fn shown(self, is_dithered: bool) -> Self {
+        Self {
+            dithered_pixels: if is_dithered { self.pixels } else { 0 },
             ..self
         }
     }

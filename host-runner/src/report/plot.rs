@@ -111,8 +111,8 @@ fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
         (f64::min(least, value), f64::max(most, value))
     });
     (most > 0.0).then(|| {
-        // At least about half a decade.
-        let room = f64::max(1.25, (3.0 * least / most).sqrt());
+        // At least about half a decade, and room for labels beside the outermost points.
+        let room = f64::max(1.6, (3.0 * least / most).sqrt());
         (least / room, most * room)
     })
 }

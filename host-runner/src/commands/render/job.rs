@@ -371,7 +371,8 @@ impl<T: HostScalar + Drawing> Studio<'_, T> {
             self.draw_in_color::<C>(job, &pixels, report, consume)
         })?;
         if let Some(work) = work {
-            *work = *work + tracer.count_work(self.rows.clone(), job.workers);
+            let counted = tracer.count_work(self.rows.clone(), job.workers);
+            *work = *work + counted.shown(job.settings.dither);
         }
         Ok(bytes)
     }
