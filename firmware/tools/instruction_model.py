@@ -26,7 +26,7 @@ from builder import FIRMWARE, Builder, Failed, compiler, scenes
 
 TABLE = os.path.join(FIRMWARE, "..", "host-runner", "src", "cost", "instructions.txt")
 CORES = ("M4F", "M3", "M0")
-TERMS = ["repeated_pixels", "dithered_pixels", "primary_rays", "reflected_rays", "refracted_rays", "shadow_rays", "sphere_tests", "plane_tests", "triangle_tests",
+TERMS = ["repeated_pixels", "block_pixels", "dithered_pixels", "primary_rays", "reflected_rays", "refracted_rays", "shadow_rays", "sphere_tests", "plane_tests", "triangle_tests",
          "exact_sphere_tests", "exact_ball_tests", "slanted_plane_tests", "plane_divisions", "sphere_tests_in_loops",
          "plane_tests_in_loops", "triangle_tests_in_loops", "sphere_crossings", "ball_crossings", "sphere_hits", "plane_hits",
          "triangle_hits", "slanted_hits", "bending_hits", "colored_hits", "sky_rays", "lights_behind", "lit", "colored_lit", "lit_glossy",

@@ -196,6 +196,7 @@ impl<'a, T: Scalar> HostTracer<'a, T> {
         let each = samples + if is_adaptive { 3 } else { 0 };
         let circumstances = Circumstances {
             has_cutoff: self.cut.is_some(),
+            block: block.into(),
             samples: samples as u64,
             is_adaptive,
             ..Circumstances::of(self.tracer.scene(), (traced * each) as u64)

@@ -39,6 +39,8 @@ work! {
     pixels,
     /// Pixels that repeat the colour of another in a block.
     repeated_pixels,
+    /// Pixels whose colour a block repeats.
+    block_pixels,
     /// Pixels whose colour dither rounds.
     dithered_pixels,
     /// Rays from the camera.
@@ -138,6 +140,8 @@ pub(crate) struct Circumstances {
     /// Whether there are secondary rays, if the depth allows it.
     pub(crate) has_branches: bool,
     pub(crate) has_cutoff: bool,
+    /// Pixels side by side in a block of one colour.
+    pub(crate) block: u64,
     /// Samples a pixel, or those of the pixels that differ from a neighbour.
     pub(crate) samples: u64,
     /// Whether pixels are compared with their neighbours.
@@ -160,6 +164,7 @@ impl Circumstances {
                 of.reflection > T::ZERO || of.refraction > T::ZERO
             }),
             has_cutoff: false,
+            block: 1,
             samples: 1,
             is_adaptive: false,
         }
@@ -200,6 +205,7 @@ impl Work {
             has_sky,
             has_branches,
             has_cutoff,
+            block,
             samples,
             is_adaptive,
         } = *circumstances;
@@ -210,7 +216,8 @@ impl Work {
         let has_triangles = triangles > 0;
         let if_so = |so: bool, count: u64| if so { count } else { 0 };
         Self {
-            repeated_pixels: self.pixels.saturating_sub(self.primary_rays),
+            repeated_pixels: if_so(block > 1, self.pixels.saturating_sub(self.primary_rays)),
+            block_pixels: if_so(block > 1, self.primary_rays),
             sphere_tests_in_loops: if_so(spheres > 1, self.sphere_tests),
             plane_tests_in_loops: if_so(planes > 1, self.plane_tests),
             triangle_tests_in_loops: if_so(triangles > 1, self.triangle_tests),

@@ -132,6 +132,7 @@ impl<'a, T: Scalar> ReportTracer<'a, T> {
         let each = samples + if is_adaptive { 3 } else { 0 };
         let circumstances = Circumstances {
             has_cutoff: self.0.cutoff() > T::ZERO,
+            block: block.into(),
             samples,
             is_adaptive,
             ..Circumstances::of(self.scene(), each * u64::from(height.div_ceil(block)))
