@@ -417,30 +417,36 @@ fn an_object_that_is_refused_changes_nothing() {
     assert_eq!((scene.object_count(), scene.sides.len()), before);
 }
 
-/// A sphere of radius 1 where coordinates are 4096 apart is hit from inside, at a point outside of it. (Found by fuzzing.)
+/// Scenes that fuzzing found. In the first a sphere of radius 1 where coordinates are 4096 apart is hit from inside, at a
+/// point outside of it; in the second one of no size to speak of, by a ray from far away.
 #[test]
-fn a_sphere_smaller_than_the_rounding_of_its_place_has_the_same_bits() {
+fn spheres_smaller_than_the_rounding_of_their_places_have_the_same_bits() {
     const SIZE: Resolution = Resolution {
         width: 8,
         height: 8,
     };
-    let mut pools: ScenePools = ScenePools::new();
-    pools
-        .parse(
-            b"2\n0 .5 -2\n64 48\n565535 6 -4 1 1 1 .9 .9 .9\n.1\n1\n.5 .5 1\n\
-              0 0 .5 4 2e18 .6 .1 .1 .5 .5 .5 1 1 1 .2 50 0 0\n\
-              0 42949672955 1 .4 1 .6 .1 .1 .5 .5 .5 1 1 1 .2 50 0 0\n",
-        )
-        .unwrap();
-    let scene = pools.as_scene();
-    let prepared = Tracer::new(scene).with_resolution(SIZE);
-    let plain = Tracer::new(Scene {
-        sides: &[],
-        ..scene
-    })
-    .with_resolution(SIZE);
-    for (x, y) in (0..8).flat_map(|y| (0..8).map(move |x| (x, y))) {
-        let expected = plain.radiance(plain.primary_ray(&plain.scanline(y), x));
-        assert_eq!(bits(prepared.pixel(x, y)), bits(expected), "{x},{y}");
+    for text in [
+        "2\n0 .5 -2\n64 48\n565535 6 -4 1 1 1 .9 .9 .9\n.1\n1\n.5 .5 1\n\
+         0 0 .5 4 2e18 .6 .1 .1 .5 .5 .5 1 1 1 .2 50 0 0\n\
+         0 42949672955 1 .4 1 .6 .1 .1 .5 .5 .5 1 1 1 .2 50 0 0\n",
+        "3\n.4 0 5\n800 600\n1 250 50 0 1 1 1 1 1\n.1\n1\n.5 .5 1\n\
+         0 1.5 1 0 .51e-10 .6 .1 .1 .5 .5 .5 1 1 1 .2 50 0 0\n\
+         0 -1.5 0 -2.5 1e9 .1 .1 .6 .5 .5 .5 1 1 1 .5 50 0 0\n\
+         1 0 1 0 1 .5 .5 .5 .1 .1 .1 1 1 1 .3 50 0 0\n",
+    ] {
+        let mut pools: ScenePools = ScenePools::new();
+        pools.parse(text.as_bytes()).unwrap();
+        let scene = pools.as_scene();
+        let prepared = Tracer::new(scene).with_resolution(SIZE);
+        let plain = Scene {
+            sides: &[],
+            zones: &[],
+            ..scene
+        };
+        let plain = Tracer::new(plain).with_resolution(SIZE);
+        for (x, y) in (0..8).flat_map(|y| (0..8).map(move |x| (x, y))) {
+            let expected = plain.radiance(plain.primary_ray(&plain.scanline(y), x));
+            assert_eq!(bits(prepared.pixel(x, y)), bits(expected), "{x},{y}");
+        }
     }
 }

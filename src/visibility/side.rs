@@ -4,7 +4,7 @@ use super::{Ball, collect, margin, size};
 use crate::light::Light;
 use crate::scalar::Scalar;
 use crate::scene::{Object, Octant, PoolsMut, Reach, Scene};
-use crate::shape::{Plane, Triangle};
+use crate::shape::{Plane, Sphere, Triangle};
 use crate::vec3::Vec3;
 
 impl<T: Scalar> PoolsMut<'_, T> {
@@ -44,7 +44,9 @@ fn may_meet<T: Scalar>(from: Object<'_, T>, front: bool, other: Object<'_, T>) -
         // Outside, a sphere is convex: it cannot meet itself.
         Object::Sphere(_) if front => !is_same(from, other),
         // Inside, the ray meets the sphere itself before anything that lies outside of it.
-        Object::Sphere(_) => is_same(from, other) || touches_ball(from, other),
+        Object::Sphere(sphere) => {
+            !has_inside(sphere) || is_same(from, other) || touches_ball(from, other)
+        }
         // A flat object cannot meet itself.
         Object::Plane(_) => !is_same(from, other),
         Object::Triangle(triangle) => !is_same(from, other) && !lies_behind(triangle, front, other),
@@ -211,15 +213,20 @@ fn lies_beside_light<T: Scalar>(from: Ball<T>, light: Vec3<T>, other: Ball<T>) -
     beside || beyond || behind
 }
 
-/// Whether no light reaches a side: inside a sphere that casts a shadow, from lights outside. A sphere that is as small as
-/// the rounding of its coordinates has no inside.
+/// Whether a ray that leaves the inside of a sphere starts there. If it is as small as the rounding of its coordinates, the
+/// ray may start anywhere near.
+fn has_inside<T: Scalar>(sphere: &Sphere<T>) -> bool {
+    sphere.radius() > margin(size(sphere.center()), T::ZERO)
+}
+
+/// Whether no light reaches a side: inside a sphere that casts a shadow, from lights outside.
 fn is_shadowed<T: Scalar>(scene: &Scene<'_, T>, object: Object<'_, T>, front: bool) -> bool {
     let Object::Sphere(sphere) = object else {
         return false;
     };
     !front
         && casts_shadow(scene, object)
-        && sphere.radius() > margin(size(sphere.center()), T::ZERO)
+        && has_inside(sphere)
         && scene.lights.iter().all(|light| {
             let to_light = light.position - sphere.center();
             let lengths = size(light.position) + size(sphere.center());

@@ -274,10 +274,7 @@ impl Drawing {
             CHART_HEIGHT as i32 + 9 + knobs.len().div_ceil(2) as i32 * LEGEND_ROW as i32,
         );
         text(last, "Pareto front of this plot");
-        text(
-            (last.0 + 190, last.1),
-            "hollow, at an edge: error 0, or not for devices",
-        );
+        text((last.0 + 190, last.1), "hollow: error 0 / no device");
         for index in 0..knobs.len() {
             let (x, y) = place(index);
             let color = css(COLORS[index % COLORS.len()]);
