@@ -35,7 +35,8 @@ struct Ball<T> {
 }
 
 impl<T: Scalar> Ball<T> {
-    /// The ball around an object; `None` around a plane.
+    /// The ball around an object; `None` around a plane, and a triangle so large that the square of its radius is no
+    /// number.
     fn around(object: Object<'_, T>) -> Option<Self> {
         match object {
             Object::Sphere(sphere) => Some(Self {
@@ -43,10 +44,13 @@ impl<T: Scalar> Ball<T> {
                 radius: sphere.radius(),
             }),
             Object::Plane(_) => None,
-            Object::Triangle(triangle) => Some(Self {
-                center: triangle.ball_center(),
-                radius: triangle.ball_radius_squared().sqrt(),
-            }),
+            Object::Triangle(triangle) => {
+                let square = triangle.ball_radius_squared();
+                (square < T::MAX).then(|| Self {
+                    center: triangle.ball_center(),
+                    radius: square.sqrt(),
+                })
+            }
         }
     }
 }

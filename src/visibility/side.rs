@@ -131,15 +131,19 @@ fn plane_margin<T: Scalar>(plane: &Plane<T>, ball: Ball<T>) -> T {
 }
 
 /// Whether all of `other` lies on the far side of a triangle's plane. Rays leave the triangle towards
-/// the near side, up to their rounding, and the triangle is bounded, so that they do not reach it.
+/// the near side, up to their rounding, and the triangle is bounded, so that they do not reach it. (One without a ball is
+/// as good as unbounded.)
 fn lies_behind<T: Scalar>(triangle: &Triangle<T>, front: bool, other: Object<'_, T>) -> bool {
     let normal = if front {
         triangle.normal()
     } else {
         -triangle.normal()
     };
+    let Some(ball) = Ball::around(Object::Triangle(triangle)) else {
+        return false;
+    };
     let [corner, ..] = triangle.vertices();
-    let own = size(corner) + triangle.ball_radius_squared().sqrt();
+    let own = size(corner) + ball.radius;
     let is_behind = |point: Vec3<T>, radius: T| {
         normal.dot(point - corner) + radius < -margin(own + size(point), radius)
     };
