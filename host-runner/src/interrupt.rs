@@ -18,6 +18,8 @@ struct State {
     unfinished: Vec<PathBuf>,
     /// What is said.
     advice: Option<String>,
+    /// What is said once the file under way is finished.
+    advice_when_finished: Option<String>,
 }
 
 static STATE: Mutex<State> = Mutex::new(State {
@@ -26,6 +28,7 @@ static STATE: Mutex<State> = Mutex::new(State {
     signal: None,
     unfinished: Vec::new(),
     advice: None,
+    advice_when_finished: None,
 });
 
 fn state() -> MutexGuard<'static, State> {
@@ -42,14 +45,27 @@ pub(crate) fn remove_unfinished(path: &Path) {
     state().unfinished.push(path.to_owned());
 }
 
+/// Gives a file its place by `rename`, after which it is no longer removed and the other advice holds. No signal comes between.
+pub(crate) fn finish<E>(path: &Path, rename: impl FnOnce() -> Result<(), E>) -> Result<(), E> {
+    let mut state = state();
+    rename()?;
+    state.unfinished.retain(|unfinished| unfinished != path);
+    if let Some(words) = state.advice_when_finished.take() {
+        state.advice = Some(words);
+    }
+    Ok(())
+}
+
 /// No longer has a file removed.
 pub(crate) fn keep_finished(path: &Path) {
     state().unfinished.retain(|unfinished| unfinished != path);
 }
 
-/// What is said when the program is interrupted: how to go on.
-pub(crate) fn advise(words: Option<String>) {
-    state().advice = words;
+/// What is said when the program is interrupted: how to go on, and how once the next file is finished.
+pub(crate) fn advise(words: Option<String>, when_finished: Option<String>) {
+    let mut state = state();
+    state.advice = words;
+    state.advice_when_finished = when_finished;
 }
 
 /// The exit code of an interrupted program, 128 and the number of the signal, once it is interrupted. From the first

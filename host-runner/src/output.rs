@@ -226,8 +226,7 @@ impl PartFile {
         // Some file systems say only now that they are full.
         self.file.sync_all()?;
         if let Some(path) = &self.path {
-            fs::rename(path, target)?;
-            interrupt::keep_finished(path);
+            interrupt::finish(path, || fs::rename(path, target))?;
         }
         self.path = None;
         Ok(())

@@ -272,9 +272,11 @@ mod linux {
         let next: usize = rest.split("..2000").next().unwrap().parse().unwrap();
         // All before are there, and whole.
         let names = folder.names();
-        let count = names.iter().filter(|name| name.starts_with("t-")).count();
-        // Between taking its place and being told of, one may be there that is drawn again.
-        assert!(count == next || count == next + 1, "{count}: {said}");
+        assert_eq!(
+            names.iter().filter(|name| name.starts_with("t-")).count(),
+            next,
+            "{said}"
+        );
         assert!(!names.iter().any(|name| name.ends_with(".part")));
         let sizes = (0..next).map(|step| folder.ppm(&format!("t-{step:04}.ppm")).width);
         assert!(sizes.eq(std::iter::repeat_n(80, next)));

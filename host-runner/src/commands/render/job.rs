@@ -101,7 +101,7 @@ impl Job<'_> {
         };
         let mut bytes = 0;
         for (done, file) in self.files.iter().enumerate() {
-            interrupt::advise(self.advice(done));
+            interrupt::advise(self.advice(done), self.advice(done + 1));
             let mut report = self.report(file, axis, &studio);
             let mut work = args.json.then(Work::default);
             report.bytes = if file.format == ImageFormat::Gif {
@@ -127,7 +127,7 @@ impl Job<'_> {
                 still_draw(print(|out| report.write_json(out)))?;
             }
         }
-        interrupt::advise(None);
+        interrupt::advise(None, None);
         let Studio { rows, .. } = studio;
         self.say_saved(resolution, &rows, bytes);
         Ok(())
