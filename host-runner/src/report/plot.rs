@@ -111,9 +111,9 @@ fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
         (f64::min(least, value), f64::max(most, value))
     });
     (most > 0.0).then(|| {
-        // At least about half a decade, and room for labels beside the outermost points.
-        let room = f64::max(1.6, (3.0 * least / most).sqrt());
-        (least / room, most * room)
+        // At least about half a decade, and room for labels, which are above and to the right of their points.
+        let room = |least_room: f64| f64::max(least_room, (3.0 * least / most).sqrt());
+        (least / room(1.2), most * room(1.6))
     })
 }
 
@@ -391,6 +391,6 @@ mod tests {
         let (least, most) = range([5.0].into_iter()).unwrap();
         assert!(least < 5.0 && most > 5.0 && most / least > 2.9);
         let (least, most) = range([1.0, 100.0].into_iter()).unwrap();
-        assert!(least < 1.0 && most > 100.0 && most / least < 300.0);
+        assert!(least < 1.0 && most > 100.0 && most / least < 200.0);
     }
 }
