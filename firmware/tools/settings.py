@@ -14,6 +14,7 @@ import collections
 import concurrent.futures
 import itertools
 import json
+import math
 import os
 import sys
 import tempfile
@@ -40,7 +41,9 @@ def split(setting, size):
     else:
         method = "Preview" if block > 1 else "Fixed"
     code = Code(method, samples, cutoff != 0, setting["color"], setting["dither"], setting["power"])
-    of_rows = -(-size[0] * size[1] * samples // ENOUGH_SAMPLES) if method == "Fixed" else 1
+    of_rows = 1
+    if method == "Fixed":
+        of_rows = min(size[1], math.ceil(size[0] * size[1] * samples / ENOUGH_SAMPLES))
     return code, Run(setting["max_depth"], float(cutoff), float(threshold or 0), block, of_rows)
 
 

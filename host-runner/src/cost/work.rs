@@ -103,9 +103,9 @@ work! {
     highlights,
     /// Objects that are looked at for a row of samples: whether its rays can meet them.
     row_checks,
-    /// Rays, shadow rays left out, of a scene with planes: they pass a loop more, and code that is larger.
+    /// Rays, shadow rays left out, of a scene with planes: they pass code that is larger.
     rays_among_planes,
-    /// Rays, shadow rays left out, of a scene with triangles: they pass a loop more, and code that is larger.
+    /// Rays, shadow rays left out, of a scene with triangles: they pass code that is larger.
     rays_among_triangles,
     /// Shadow rays of such a scene.
     shadow_rays_among_triangles,

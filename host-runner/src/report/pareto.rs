@@ -37,7 +37,8 @@ impl Point {
 }
 
 /// How each point stands. From the cheapest on, a point is on the front if its error is by more than 1 % less than that of
-/// the last on it, so that many small steps are worth having too; of several points that differ by less than 1 % the first stands for all.
+/// the last on it, so that many small steps are worth having too; of several points that differ by less than 1 % the first
+/// stands for all.
 pub(crate) fn standings(points: &[Point]) -> Vec<Standing> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|a, b| {
