@@ -131,6 +131,10 @@ pub(crate) fn run(args: &ReportArgs) -> Result<ExitCode, Failure> {
 }
 
 fn make_folder(folder: &Path) -> Result<(), Failure> {
+    if folder.is_file() {
+        let why = "it is a file; name a folder with --output";
+        return Err(Failure::file("write the report in", folder, why));
+    }
     fs::create_dir_all(folder).map_err(|error| Failure::file("make the folder", folder, error))
 }
 

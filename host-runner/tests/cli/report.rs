@@ -233,7 +233,8 @@ fn refuses_what_it_cannot_measure() {
     assert!(words.contains("bad.txt:2"), "{words}");
     assert!(!folder.path("out").exists());
     folder.write("file", "");
-    folder.fail(4, &["report", "-o", "file", "--size", "4x3"]);
+    let words = folder.fail(4, &["report", "-o", "file", "--size", "4x3"]);
+    assert!(words.contains("it is a file; name a folder"), "{words}");
     // A file of the report that cannot be written is told of at once, too: nothing is measured, so that the older stays.
     std::fs::create_dir_all(folder.path("taken/report.csv")).unwrap();
     folder.write("taken/index.html", "older");
