@@ -34,7 +34,7 @@
 //!
 //! [`Scene::needs`](Scene) is a constant function; [`tracer_for!`] compiles only the stages that a
 //! `static` scene needs. At run time objects that a ray cannot meet are not tested, with the same bits: in a
-//! small scene by lists of candidates, in a large one by a bounding-volume hierarchy ([`Tree`]), which is
+//! small scene by lists of candidates, in a large one by a bounding-volume hierarchy ([`Bvh`](accel::Bvh)), which is
 //! baked into flash or built in the pools if they have room for it.
 //!
 //! # More or less
@@ -97,6 +97,8 @@ mod vec3;
 
 mod color;
 
+mod stages;
+
 // Geometry.
 mod ray;
 
@@ -111,10 +113,13 @@ mod camera;
 
 mod background;
 
+// What is known of a scene before the first ray.
+pub mod accel;
+
 mod scene;
 
-// What is known of a scene before the first ray.
-mod visibility;
+#[macro_use]
+pub mod pools;
 
 // Scenes from text, to text and to Rust source.
 #[cfg(feature = "parser")]
@@ -149,10 +154,11 @@ pub use render::{
     ThroughRgb888, differ,
 };
 pub use scalar::Scalar;
-pub use scene::{
-    Needs, NodeContent, Object, ObjectSet, Octant, Pool, PoolUse, PoolsMut, Reach, Scene,
-    SceneError, ScenePools, Strip, Tree, TreeEntry, TreeNode, Zones,
-};
+pub use accel::ObjectSet;
+pub use pools::{Pool, PoolUse, PoolsMut, SceneError, ScenePools};
+pub use scene::Scene;
+pub use shape::{Object, Shape};
+pub use stages::Stages;
 pub use tracer::{
     DEFAULT_MAX_DEPTH, DepthError, LightAtHit, Meeting, MissingStages, Nearest, Observer, RayCount,
     RayKind, Scanline, TestKind, Tracer, WorkCount,

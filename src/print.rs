@@ -6,8 +6,8 @@ use crate::color::Color;
 use crate::light::Light;
 use crate::material::MaterialDescription;
 use crate::scalar::Scalar;
-use crate::scene::{Object, Scene};
-use crate::shape::{Plane, Surface};
+use crate::scene::Scene;
+use crate::shape::{Object, Plane, Surface};
 use crate::vec3::Vec3;
 
 /// A scene as text in the numeric dialect, one record a line, every number with the fewest digits that read

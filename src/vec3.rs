@@ -129,6 +129,18 @@ impl<T: Scalar> Vec3<T> {
         self.x.max(self.y).max(self.z)
     }
 
+    /// The smaller of two, component by component; that of `self` where they do not compare.
+    pub(crate) fn min_by_component(self, other: Self) -> Self {
+        let min = |a: T, b: T| if b < a { b } else { a };
+        Self::new(min(self.x, other.x), min(self.y, other.y), min(self.z, other.z))
+    }
+
+    /// The larger of two, component by component; that of `self` where they do not compare.
+    pub(crate) fn max_by_component(self, other: Self) -> Self {
+        let max = |a: T, b: T| if b > a { b } else { a };
+        Self::new(max(self.x, other.x), max(self.y, other.y), max(self.z, other.z))
+    }
+
     /// All three components are finite.
     #[inline]
     pub fn is_finite(self) -> bool {

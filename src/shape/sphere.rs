@@ -1,9 +1,12 @@
 //! Spheres.
 
 use super::coarse::Sighting;
-use super::{ShapeError, Surface, SurfacePoint};
+use super::{
+    Barycentric, BoundingSphere, Geometry, Kind, Object, Primitive, Shape, ShapeError, Surface, SurfacePoint,
+};
 use crate::ray::{Ray, origin_offset};
 use crate::scalar::Scalar;
+use crate::stages::Stages;
 use crate::vec3::Vec3;
 
 /// A sphere.
@@ -88,10 +91,6 @@ impl<T: Scalar> Sphere<T> {
         self.offset
     }
 
-    pub(crate) fn set_material(&mut self, material: u32) {
-        self.surface.material = material;
-    }
-
     /// Material and place in the file.
     #[inline(always)]
     pub const fn surface(&self) -> Surface {
@@ -169,6 +168,81 @@ impl<T: Scalar> Sphere<T> {
             normal,
             offset: self.offset,
         }
+    }
+}
+
+impl<T: Scalar> Primitive<T> for Sphere<T> {
+    const KIND: Kind = Kind::Sphere;
+    const STAGE: Stages = Stages::SPHERES;
+    const SEVERAL: Stages = Stages::SEVERAL_SPHERES;
+    const IS_FLAT: bool = false;
+    const HAS_PLACE: bool = false;
+
+    #[inline(always)]
+    fn all<'a>(geometry: &Geometry<'a, T>) -> &'a [Self] {
+        geometry.spheres
+    }
+
+    #[inline(always)]
+    fn object(&self) -> Object<'_, T> {
+        Object::Sphere(self)
+    }
+
+    fn shape(&self) -> Shape<T> {
+        Shape::Sphere {
+            center: self.center,
+            radius: self.radius,
+        }
+    }
+
+    #[inline(always)]
+    fn surface(&self) -> Surface {
+        self.surface
+    }
+
+    fn set_material(&mut self, material: u32) {
+        self.surface.material = material;
+    }
+
+    fn bounding_sphere(&self) -> Option<BoundingSphere<T>> {
+        Some(BoundingSphere {
+            center: self.center,
+            radius: self.radius,
+        })
+    }
+
+    fn bounding_box(&self) -> Option<[Vec3<T>; 2]> {
+        let radius = Vec3::splat(self.radius);
+        Some([self.center - radius, self.center + radius])
+    }
+
+    #[inline(always)]
+    fn hit(&self, ray: &Ray<T>, _: T) -> Option<(T, Barycentric<T>)> {
+        Some((self.meet(ray)?, Barycentric::ZERO))
+    }
+
+    #[inline(always)]
+    fn occludes(&self, ray: &Ray<T>, t_max: T) -> bool {
+        self.occludes(ray, t_max)
+    }
+
+    #[inline(always)]
+    fn point(&self, ray: &Ray<T>, t: T, _: Barycentric<T>) -> SurfacePoint<T> {
+        self.surface_point(ray, t)
+    }
+
+    #[cfg(feature = "bake")]
+    fn parts(&self) -> (&'static str, [Option<super::Part<T>>; 6]) {
+        use super::Part::{Number, Vector};
+        let parts = [
+            Some(Vector(self.center)),
+            Some(Number(self.radius_squared)),
+            Some(Number(self.radius)),
+            Some(Number(self.offset)),
+            None,
+            None,
+        ];
+        ("Sphere", parts)
     }
 }
 

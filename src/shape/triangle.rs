@@ -1,9 +1,12 @@
 //! Triangles.
 
 use super::coarse::Sighting;
-use super::{ShapeError, Surface, SurfacePoint, extent};
+use super::{
+    BoundingSphere, Geometry, Kind, Object, Primitive, Shape, ShapeError, Surface, SurfacePoint, extent,
+};
 use crate::ray::{Ray, origin_offset};
 use crate::scalar::Scalar;
+use crate::stages::Stages;
 use crate::vec3::Vec3;
 
 /// A triangle, seen from both sides.
@@ -29,6 +32,14 @@ pub struct Barycentric<T> {
     pub v2: T,
     /// Weight of the third vertex, in 0…1.
     pub v3: T,
+}
+
+impl<T: Scalar> Barycentric<T> {
+    /// The first vertex, or nowhere on what is no triangle.
+    pub(crate) const ZERO: Self = Self {
+        v2: T::ZERO,
+        v3: T::ZERO,
+    };
 }
 
 impl<T: Scalar> Triangle<T> {
@@ -117,10 +128,6 @@ impl<T: Scalar> Triangle<T> {
         self.offset
     }
 
-    pub(crate) fn set_material(&mut self, material: u32) {
-        self.surface.material = material;
-    }
-
     /// Material and place in the file.
     #[inline(always)]
     pub const fn surface(&self) -> Surface {
@@ -160,7 +167,7 @@ impl<T: Scalar> Triangle<T> {
     /// Distance and place of the crossing within `0 < t ≤ t_max`.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray<T>, t_max: T) -> Option<(T, Barycentric<T>)> {
-        if !self.may_meet(ray) || ray.leaves.object() == self.surface.number {
+        if !self.may_meet(ray) {
             return None;
         }
         let (o, d) = (ray.origin, ray.direction);
@@ -245,6 +252,84 @@ impl<T: Scalar> Triangle<T> {
             normal: self.normal,
             offset: self.offset,
         }
+    }
+}
+
+impl<T: Scalar> Primitive<T> for Triangle<T> {
+    const KIND: Kind = Kind::Triangle;
+    const STAGE: Stages = Stages::TRIANGLES;
+    const SEVERAL: Stages = Stages::SEVERAL_TRIANGLES;
+    const IS_FLAT: bool = true;
+    const HAS_PLACE: bool = true;
+
+    #[inline(always)]
+    fn all<'a>(geometry: &Geometry<'a, T>) -> &'a [Self] {
+        geometry.triangles
+    }
+
+    #[inline(always)]
+    fn object(&self) -> Object<'_, T> {
+        Object::Triangle(self)
+    }
+
+    fn shape(&self) -> Shape<T> {
+        Shape::Triangle {
+            vertices: self.vertices,
+        }
+    }
+
+    #[inline(always)]
+    fn surface(&self) -> Surface {
+        self.surface
+    }
+
+    fn set_material(&mut self, material: u32) {
+        self.surface.material = material;
+    }
+
+    /// `None` also of a triangle so large that the square of the radius is no number.
+    fn bounding_sphere(&self) -> Option<BoundingSphere<T>> {
+        let square = self.ball_radius_squared;
+        (square < T::MAX).then(|| BoundingSphere {
+            center: self.ball_center,
+            radius: square.sqrt(),
+        })
+    }
+
+    fn bounding_box(&self) -> Option<[Vec3<T>; 2]> {
+        let [v1, v2, v3] = self.vertices;
+        let lowest = v1.min_by_component(v2).min_by_component(v3);
+        let highest = v1.max_by_component(v2).max_by_component(v3);
+        Some([lowest, highest])
+    }
+
+    #[inline(always)]
+    fn hit(&self, ray: &Ray<T>, t_max: T) -> Option<(T, Barycentric<T>)> {
+        self.intersect(ray, t_max)
+    }
+
+    #[inline(always)]
+    fn occludes(&self, ray: &Ray<T>, t_max: T) -> bool {
+        self.occludes(ray, t_max)
+    }
+
+    #[inline(always)]
+    fn point(&self, _: &Ray<T>, _: T, place: Barycentric<T>) -> SurfacePoint<T> {
+        self.surface_point(place)
+    }
+
+    #[cfg(feature = "bake")]
+    fn parts(&self) -> (&'static str, [Option<super::Part<T>>; 6]) {
+        use super::Part::{Number, Vector, Vectors};
+        let parts = [
+            Some(Vectors(self.vertices)),
+            Some(Vector(self.normal)),
+            Some(Vector(self.ball_center)),
+            Some(Number(self.ball_radius_squared)),
+            Some(Number(self.offset)),
+            None,
+        ];
+        ("Triangle", parts)
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::color::Color;
 use crate::material::MaterialDescription;
 use crate::ray::{Ray, Side};
-use crate::scene::Object;
+use crate::shape::Object;
 use crate::vec3::Vec3;
 
 /// Why a ray is cast.

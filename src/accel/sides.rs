@@ -1,28 +1,20 @@
 //! What rays can meet that leave a side of an object.
 
-use super::{Ball, collect, margin, size};
+use super::{Candidates, Octant, Source, collect, margin, size};
 use crate::light::Light;
 use crate::scalar::Scalar;
-use crate::scene::{Object, Octant, PoolsMut, Reach, Scene};
-use crate::shape::{Plane, Sphere, Triangle};
+use crate::shape::{BoundingSphere, Object, Plane, Sphere, Triangle};
 use crate::vec3::Vec3;
 
-impl<T: Scalar> PoolsMut<'_, T> {
-    /// Fills in the sides of all objects, if there is room for them.
-    pub(super) fn find_sides(&mut self) {
-        self.fill_sides(sides);
-    }
-}
-
 /// The reach of the front and the back of an object.
-pub(super) fn sides<T: Scalar>(scene: &Scene<'_, T>, object: Object<'_, T>) -> [Reach; 2] {
-    let reach = |front: bool| Reach {
+pub(super) fn sides<T: Scalar>(scene: &Source<'_, T>, object: Object<'_, T>) -> [Candidates; 2] {
+    let reach = |front: bool| Candidates {
         near: Octant::ALL.map(|octant| {
-            collect(scene, |other| {
+            collect(&scene.geometry, |other| {
                 may_meet(object, front, other) && may_lie_ahead(object, octant, other)
             })
         }),
-        occluders: collect(scene, |other| {
+        occluders: collect(&scene.geometry, |other| {
             casts_shadow(scene, other)
                 && scene
                     .lights
@@ -55,10 +47,10 @@ fn may_meet<T: Scalar>(from: Object<'_, T>, front: bool, other: Object<'_, T>) -
 
 /// Whether a ray that leaves an object in a direction of an octant can come to `other`.
 fn may_lie_ahead<T: Scalar>(from: Object<'_, T>, octant: Octant, other: Object<'_, T>) -> bool {
-    let Some(ball) = Ball::around(from) else {
+    let Some(ball) = from.bounding_sphere() else {
         return true;
     };
-    match (other, Ball::around(other)) {
+    match (other, other.bounding_sphere()) {
         (Object::Plane(plane), _) => {
             // Not where the whole ball lies above the plane, and all directions lead up; or both down.
             let above = height(plane, ball.center);
@@ -104,10 +96,10 @@ fn outside_part<T: Scalar>(octant: Octant, point: Vec3<T>) -> Vec3<T> {
 
 /// Whether something of an object may lie in the ball around another.
 fn touches_ball<T: Scalar>(inside: Object<'_, T>, other: Object<'_, T>) -> bool {
-    let Some(ball) = Ball::around(inside) else {
+    let Some(ball) = inside.bounding_sphere() else {
         return true;
     };
-    match (other, Ball::around(other)) {
+    match (other, other.bounding_sphere()) {
         (Object::Plane(plane), _) => {
             height(plane, ball.center).abs() <= ball.radius + plane_margin(plane, ball)
         }
@@ -126,7 +118,7 @@ fn height<T: Scalar>(plane: &Plane<T>, point: Vec3<T>) -> T {
     plane.normal().dot(point) - plane.height()
 }
 
-fn plane_margin<T: Scalar>(plane: &Plane<T>, ball: Ball<T>) -> T {
+fn plane_margin<T: Scalar>(plane: &Plane<T>, ball: BoundingSphere<T>) -> T {
     margin(size(ball.center) + plane.height().abs(), ball.radius)
 }
 
@@ -139,7 +131,7 @@ fn lies_behind<T: Scalar>(triangle: &Triangle<T>, front: bool, other: Object<'_,
     } else {
         -triangle.normal()
     };
-    let Some(ball) = Ball::around(Object::Triangle(triangle)) else {
+    let Some(ball) = Object::Triangle(triangle).bounding_sphere() else {
         return false;
     };
     let [corner, ..] = triangle.vertices();
@@ -164,14 +156,14 @@ fn may_shade<T: Scalar>(
     light: &Light<T>,
     other: Object<'_, T>,
 ) -> bool {
-    let Some(ball) = Ball::around(from) else {
+    let Some(ball) = from.bounding_sphere() else {
         return !is_same(from, other);
     };
     if is_same(from, other) {
         // Only from inside a sphere does a ray towards the light meet the object it leaves.
         return matches!(from, Object::Sphere(_)) && !front;
     }
-    match (other, Ball::around(other)) {
+    match (other, other.bounding_sphere()) {
         (Object::Plane(plane), _) => {
             // Both the object and the light strictly on one side?
             let margin = plane_margin(plane, ball) + margin(size(light.position), T::ZERO);
@@ -192,7 +184,7 @@ fn may_shade<T: Scalar>(
 /// The hull lies in the cone of half-angle φ, `sin φ = R/V`, with its tip in the light, at distance `V`
 /// from the ball of radius `R`; for a point at distance `a` along the axis and `h` from it the tangent
 /// plane of the cone is at the distance `h cos φ − (V − a) sin φ`.
-fn lies_beside_light<T: Scalar>(from: Ball<T>, light: Vec3<T>, other: Ball<T>) -> bool {
+fn lies_beside_light<T: Scalar>(from: BoundingSphere<T>, light: Vec3<T>, other: BoundingSphere<T>) -> bool {
     let to_light = light - from.center;
     let to_other = other.center - from.center;
     let light_distance = to_light.dot(to_light).sqrt();
@@ -224,7 +216,7 @@ fn has_inside<T: Scalar>(sphere: &Sphere<T>) -> bool {
 }
 
 /// Whether no light reaches a side: inside a sphere that casts a shadow, from lights outside.
-fn is_shadowed<T: Scalar>(scene: &Scene<'_, T>, object: Object<'_, T>, front: bool) -> bool {
+fn is_shadowed<T: Scalar>(scene: &Source<'_, T>, object: Object<'_, T>, front: bool) -> bool {
     let Object::Sphere(sphere) = object else {
         return false;
     };
@@ -240,7 +232,7 @@ fn is_shadowed<T: Scalar>(scene: &Scene<'_, T>, object: Object<'_, T>, front: bo
 }
 
 /// Whether an object casts a shadow; one without a material does.
-fn casts_shadow<T: Scalar>(scene: &Scene<'_, T>, object: Object<'_, T>) -> bool {
+fn casts_shadow<T: Scalar>(scene: &Source<'_, T>, object: Object<'_, T>) -> bool {
     scene
         .materials
         .get(object.surface().material as usize)

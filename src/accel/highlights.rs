@@ -10,17 +10,19 @@
 use crate::color::Color;
 use crate::material::Material;
 use crate::scalar::Scalar;
-use crate::scene::{PoolsMut, Scene};
 
-impl<T: Scalar> PoolsMut<'_, T> {
-    /// Finds the alignments of all materials below which no highlight is seen.
-    pub(super) fn find_faint_highlights(&mut self) {
-        self.fill_faint_alignments(faint_alignment);
-    }
+use super::Source;
+
+/// The [`Scalar::upper_half`] of a number below which an alignment adds no highlight that is seen; 0 if there is no such number.
+pub(super) fn faint_alignment<T: Scalar>(
+    source: &Source<'_, T>,
+    ambient: T,
+    material: &Material<T>,
+) -> i16 {
+    alignment(source, ambient, material).upper_half()
 }
 
-/// A number below which an alignment adds no highlight that is seen; 0 if there is no such number.
-fn faint_alignment<T: Scalar>(scene: &Scene<'_, T>, material: &Material<T>) -> T {
+fn alignment<T: Scalar>(source: &Source<'_, T>, ambient: T, material: &Material<T>) -> T {
     let whole = material.whole_shininess();
     // The error of a fractional power is absolute, and larger than what is asked for here.
     if whole == 0 || whole == Material::<T>::FRACTIONAL {
@@ -28,12 +30,12 @@ fn faint_alignment<T: Scalar>(scene: &Scene<'_, T>, material: &Material<T>) -> T
     }
     let description = material.description();
     let channels = |color: Color<T>| [color.r, color.g, color.b];
-    let strongest = scene
+    let strongest = source
         .lights
         .iter()
         .flat_map(|light| channels(light.specular * description.specular))
         .fold(T::ZERO, |most, channel| channel.max(most));
-    let [r, g, b] = channels(scene.ambient_color(description));
+    let [r, g, b] = channels(description.ambient * ambient);
     let darkest = -((-r).max(-g).max(-b));
     let power = darkest * (T::EPSILON * T::from_f64(0.125)) / strongest;
     if !(power > T::ZERO && power < T::ONE) {

@@ -2,19 +2,19 @@
 
 use heapless::Vec;
 
+use super::{Bvh, BvhNode, NodeContent};
 use crate::ray::Ray;
 use crate::scalar::Scalar;
-use crate::scene::{NodeContent, Tree, TreeEntry, TreeNode};
 use crate::vec3::Vec3;
 
 /// A walk of a ray through a tree, from leaf to leaf, roughly in the order in which the ray meets them.
 pub(crate) struct Walk<'a, T> {
-    tree: Tree<'a, T>,
+    tree: Bvh<'a, T>,
     axes: [Axis<T>; 3],
     /// The axis of the largest component of the direction.
     leading: usize,
     /// Nodes to visit, the next one last. A step down leaves one node behind.
-    nodes: Vec<u32, { Tree::<f32>::MAX_DEPTH + 1 }>,
+    nodes: Vec<u32, { Bvh::<f32>::MAX_DEPTH + 1 }>,
 }
 
 /// The component of a ray along an axis.
@@ -31,7 +31,7 @@ struct Axis<T> {
 
 impl<'a, T: Scalar> Walk<'a, T> {
     #[inline]
-    pub(crate) fn new(tree: Tree<'a, T>, ray: &Ray<T>) -> Self {
+    pub(crate) fn new(tree: Bvh<'a, T>, ray: &Ray<T>) -> Self {
         let (o, d) = (ray.origin, ray.direction);
         let size = o.x.abs() + o.y.abs() + o.z.abs();
         let margin = size * (T::EPSILON * T::from_i32(64));
@@ -70,7 +70,7 @@ impl<'a, T: Scalar> Walk<'a, T> {
         &mut self,
         t_max: T,
         mut tested: impl FnMut(),
-    ) -> Option<&'a [TreeEntry]> {
+    ) -> Option<&'a [u32]> {
         loop {
             let node = self.tree.nodes.get(self.nodes.pop()? as usize)?;
             tested();
@@ -94,7 +94,7 @@ impl<'a, T: Scalar> Walk<'a, T> {
 
     /// Whether the ray may meet something in the box at `0 < t ≤ t_max`.
     #[inline(always)]
-    fn may_meet(&self, node: &TreeNode<T>, t_max: T) -> bool {
+    fn may_meet(&self, node: &BvhNode<T>, t_max: T) -> bool {
         let bounds = node.bounds();
         let slab = |i: usize, axis: &Axis<T>| {
             let (entry, exit) = (axis.entry & 1, !axis.entry & 1);

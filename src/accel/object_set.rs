@@ -1,10 +1,6 @@
-//! Which objects a ray that leaves a surface can meet: the data; how it is found is told in
-//! `visibility`.
+//! Sets of objects: one word.
 
 use core::ops::Range;
-
-use crate::scalar::Scalar;
-use crate::vec3::Vec3;
 
 /// A set of objects of a scene, by their index among all: spheres first, then planes, then triangles.
 ///
@@ -60,6 +56,12 @@ impl ObjectSet {
     #[must_use]
     pub const fn union(self, other: Self) -> Self {
         Self(self.0 | other.0)
+    }
+
+    /// What is in this set but not in the other.
+    #[must_use]
+    pub const fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
     }
 
     /// What is in both sets.
@@ -157,76 +159,6 @@ impl Members {
     }
 }
 
-/// The eight octants by the signs of the components of a direction; ±0 belongs to either side.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Octant(u8);
-
-impl Octant {
-    /// All of them, in the order of their indices.
-    pub const ALL: [Self; 8] = [
-        Self(0),
-        Self(1),
-        Self(2),
-        Self(3),
-        Self(4),
-        Self(5),
-        Self(6),
-        Self(7),
-    ];
-
-    /// The octant of a direction.
-    #[inline(always)]
-    pub fn of<T: Scalar>(direction: Vec3<T>) -> Self {
-        let sign = |component: T| component.is_negative() as u8;
-        Self(sign(direction.x) | sign(direction.y) << 1 | sign(direction.z) << 2)
-    }
-
-    /// Whether its directions have components ≤ 0 along x, y and z; ≥ 0 otherwise.
-    pub const fn is_negative(self) -> [bool; 3] {
-        [self.0 & 1 != 0, self.0 & 2 != 0, self.0 & 4 != 0]
-    }
-
-    /// Its place in [`Octant::ALL`].
-    #[inline(always)]
-    pub const fn index(self) -> usize {
-        self.0 as usize
-    }
-}
-
-/// What rays can meet that leave one side of an object.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Reach {
-    /// Objects that a mirrored or refracted ray can meet first, by the octant of its direction.
-    pub near: [ObjectSet; 8],
-    /// Objects that may stand between this side and a light.
-    pub occluders: ObjectSet,
-    /// No light reaches this side.
-    pub shadowed: bool,
-}
-
-impl Reach {
-    /// Anything may be met.
-    pub const ALL: Self = Self {
-        near: [ObjectSet::ALL; 8],
-        occluders: ObjectSet::ALL,
-        shadowed: false,
-    };
-
-    /// Objects that a mirrored or refracted ray of a direction can meet first.
-    #[inline(always)]
-    pub fn near<T: Scalar>(&self, direction: Vec3<T>) -> ObjectSet {
-        // The index is below 8.
-        self.near[Octant::of(direction).index() & 7]
-    }
-
-    /// Objects that a mirrored or refracted ray of any direction can meet first.
-    pub fn near_in_any_direction(&self) -> ObjectSet {
-        self.near
-            .iter()
-            .fold(ObjectSet::NONE, |all, octant| all.union(*octant))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -248,15 +180,5 @@ mod tests {
             members(ObjectSet::ALL, 40),
             (0..40).collect::<std::vec::Vec<_>>()
         );
-    }
-
-    #[test]
-    fn directions_belong_to_the_octant_of_their_signs() {
-        for octant in Octant::ALL {
-            let signed = |is_negative| if is_negative { -0.5_f32 } else { 0.5 };
-            let [x, y, z] = octant.is_negative().map(signed);
-            assert_eq!(Octant::of(Vec3::new(x, y, z)), octant);
-        }
-        assert_eq!(Octant::of(Vec3::new(0.0_f64, -0.0, -1.0)).index(), 6);
     }
 }

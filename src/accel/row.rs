@@ -1,25 +1,26 @@
 //! What the camera can see in a row of pixels.
 
-use super::{Ball, collect, margin, size};
+use super::{ObjectSet, collect, margin, size};
+use crate::camera::Camera;
 use crate::scalar::Scalar;
-use crate::scene::{Object, ObjectSet, Scene};
-use crate::shape::Plane;
+use crate::shape::{BoundingSphere, Geometry, Object, Plane};
 use crate::vec3::Vec3;
 
 /// The objects that the camera's rays in the directions `(x, row_height, 1)`, `|x| ≤ half_width`, can
 /// meet.
 pub(crate) fn visible_in_row<T: Scalar>(
-    scene: &Scene<'_, T>,
+    geometry: &Geometry<'_, T>,
+    camera: &Camera<T>,
     row_height: T,
     half_width: T,
 ) -> ObjectSet {
     let row = Row {
-        origin: scene.camera.position,
+        origin: camera.position,
         height: row_height,
         half_width,
         scale_squared: T::ONE + row_height * row_height,
     };
-    collect(scene, |object| match (object, Ball::around(object)) {
+    collect(geometry, |object| match (object, object.bounding_sphere()) {
         (Object::Plane(plane), _) => row.may_show_plane(plane),
         (_, Some(ball)) => row.may_show_ball(ball),
         _ => true,
@@ -37,7 +38,7 @@ struct Row<T> {
 }
 
 impl<T: Scalar> Row<T> {
-    fn may_show_ball(&self, ball: Ball<T>) -> bool {
+    fn may_show_ball(&self, ball: BoundingSphere<T>) -> bool {
         let f = ball.center - self.origin;
         // The tracer's tests begin with the same difference: coordinates add no rounding of their own.
         let reach = ball.radius + margin(size(f), ball.radius);

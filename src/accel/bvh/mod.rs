@@ -37,8 +37,11 @@
 
 mod bounds;
 mod build;
+mod node;
 #[cfg(test)]
 mod tests;
 mod walk;
 
+pub(super) use build::build;
+pub use node::{Bvh, BvhNode, NodeContent};
 pub(crate) use walk::Walk;

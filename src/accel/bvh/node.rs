@@ -1,5 +1,5 @@
 //! A hierarchy of boxes around the spheres and triangles of a large scene: the data; how it is built and
-//! walked is told in `visibility::tree`.
+//! walked is told in [`super`].
 
 use crate::scalar::Scalar;
 use crate::vec3::Vec3;
@@ -7,21 +7,21 @@ use crate::vec3::Vec3;
 /// A view of a bounding-volume hierarchy in pools or in flash.
 ///
 /// Invariants, which its walk relies on: there are no nodes, or the first is the root; the children of a node
-/// come later than it, side by side; no leaf is more than [`Tree::MAX_DEPTH`] steps from the root; every
-/// sphere and triangle of the scene is in one leaf.
+/// come later than it, side by side; no leaf is more than [`Bvh::MAX_DEPTH`] steps from the root; every
+/// bounded object of the scene is in one leaf.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tree<'a, T = f32> {
+pub struct Bvh<'a, T = f32> {
     /// Boxes.
-    pub nodes: &'a [TreeNode<T>],
-    /// What is in the leaves, leaf by leaf.
-    pub entries: &'a [TreeEntry],
+    pub nodes: &'a [BvhNode<T>],
+    /// The indices of the objects in the leaves, leaf by leaf.
+    pub entries: &'a [u32],
 }
 
-impl<T> Tree<'_, T> {
+impl<T> Bvh<'_, T> {
     /// The largest number of steps from the root to a leaf.
     pub const MAX_DEPTH: usize = 31;
 
-    /// With fewer spheres and triangles than this a tree does not pay, and none is built.
+    /// With fewer bounded objects than this a tree does not pay, and none is built.
     pub const FEWEST_OBJECTS: usize = 48;
 
     /// No tree: every object of a set is tested.
@@ -40,7 +40,7 @@ impl<T> Tree<'_, T> {
 /// A box that holds what rays can meet of the objects below, with a margin for the rounding of their
 /// tests.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TreeNode<T = f32> {
+pub struct BvhNode<T = f32> {
     /// The lowest and the highest coordinates, by axis.
     bounds: [[T; 3]; 2],
     first: u32,
@@ -53,24 +53,24 @@ pub struct TreeNode<T = f32> {
 pub enum NodeContent {
     /// Objects.
     Leaf {
-        /// Index of the first of them in [`Tree::entries`].
+        /// Index of the first of them in [`Bvh::entries`].
         first: u32,
         /// Their number, at least 1.
         count: u32,
     },
     /// Two nodes.
     Inner {
-        /// Index of the first of them in [`Tree::nodes`]; the other one follows it.
+        /// Index of the first of them in [`Bvh::nodes`]; the other one follows it.
         first: u32,
         /// The axis along which the first lies below the other: 0, 1 or 2 for x, y or z.
         axis: usize,
     },
 }
 
-impl<T: Scalar> TreeNode<T> {
+impl<T: Scalar> BvhNode<T> {
     const INNER: u32 = 1 << 31;
 
-    /// A node from what [`TreeNode::low`], [`TreeNode::high`] and [`TreeNode::content`] tell of it.
+    /// A node from what [`BvhNode::low`], [`BvhNode::high`] and [`BvhNode::content`] tell of it.
     pub const fn new(low: Vec3<T>, high: Vec3<T>, content: NodeContent) -> Self {
         let (first, kind) = match content {
             NodeContent::Leaf { first, count } => (first, count),
@@ -113,35 +113,5 @@ impl<T: Scalar> TreeNode<T> {
                 axis: (kind & !Self::INNER) as usize,
             }
         }
-    }
-}
-
-/// A sphere or a triangle in a leaf, by its index among those of its shape.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TreeEntry(u32);
-
-impl TreeEntry {
-    const TRIANGLE: u32 = 1 << 31;
-
-    /// The sphere of an index below 2³¹.
-    pub const fn sphere(index: u32) -> Self {
-        Self(index & !Self::TRIANGLE)
-    }
-
-    /// The triangle of an index below 2³¹.
-    pub const fn triangle(index: u32) -> Self {
-        Self(index | Self::TRIANGLE)
-    }
-
-    /// Whether it is a triangle.
-    #[inline(always)]
-    pub const fn is_triangle(self) -> bool {
-        self.0 & Self::TRIANGLE != 0
-    }
-
-    /// Its index among the spheres or the triangles of the scene.
-    #[inline(always)]
-    pub const fn index(self) -> usize {
-        (self.0 & !Self::TRIANGLE) as usize
     }
 }

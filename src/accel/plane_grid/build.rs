@@ -2,50 +2,43 @@
 //!
 //! Planes have no bounds, so that a side of one meets nearly everything. But the lower coordinates of an
 //! object tell whether it lies behind a ray that goes up along the axis, and the upper ones likewise; and
-//! an object stands between a place and a light only inside the wedge from the light to the strip in which
-//! the place lies. Both are found for strips of a bounded part of the plane, so that the margins can be
+//! an object stands between a place and a light only inside the wedge from the light to the slab in which
+//! the place lies. Both are found for slabs of a bounded part of the plane, so that the margins can be
 //! relative to its size; from elsewhere anything may be met.
 
-use super::{Ball, collect, margin, size};
+use super::{PlaneGrid, Slab, across};
+use crate::accel::{ObjectSet, Source, collect, margin, size};
 use crate::light::Light;
 use crate::scalar::Scalar;
-use crate::scene::{ObjectSet, PoolsMut, Scene, Strip, Zones, across};
-use crate::shape::Plane;
+use crate::shape::{BoundingSphere, Plane};
 use crate::vec3::Vec3;
 
-impl<T: Scalar> PoolsMut<'_, T> {
-    /// Fills in the zones of all planes.
-    pub(super) fn find_zones(&mut self) {
-        self.fill_zones(zones);
-    }
-}
-
-/// How much larger the part of the plane with strips is than what the objects span.
+/// How much larger the part of the plane with slabs is than what the objects span.
 fn widening<T: Scalar>() -> T {
     T::THREE_HALVES
 }
 
-/// The zones of a plane.
-fn zones<T: Scalar>(scene: &Scene<'_, T>, plane: &Plane<T>) -> Zones<T> {
+/// The grid of a plane.
+pub(in crate::accel) fn plane_grid<T: Scalar>(scene: &Source<'_, T>, plane: &Plane<T>) -> PlaneGrid<T> {
     let Some(part) = Part::of(scene, plane) else {
-        return Zones::ALL;
+        return PlaneGrid::ALL;
     };
-    let strips = |axis: Axis| {
-        let mut strips = [Strip::ALL; Strip::PER_AXIS];
-        for (strip, number) in strips.iter_mut().zip(0..) {
-            *strip = part.strip(scene, axis, number);
+    let slabs = |axis: Axis| {
+        let mut slabs = [Slab::ALL; Slab::PER_AXIS];
+        for (slab, number) in slabs.iter_mut().zip(0..) {
+            *slab = part.slab(scene, axis, number);
         }
-        strips
+        slabs
     };
-    Zones {
+    PlaneGrid {
         normal_axis: part.normal_axis,
         low: part.low,
         density: part.step.map(|step| T::ONE / step),
-        strips: [strips(Axis::First), strips(Axis::Second)],
+        slabs: [slabs(Axis::First), slabs(Axis::Second)],
     }
 }
 
-/// One of the two axes with strips.
+/// One of the two axes with slabs.
 #[derive(Clone, Copy)]
 enum Axis {
     First,
@@ -64,12 +57,12 @@ impl Axis {
     }
 }
 
-/// A part of a plane, divided into strips.
+/// A part of a plane, divided into slabs.
 struct Part<'p, T> {
     plane: &'p Plane<T>,
     normal_axis: u8,
     low: [T; 2],
-    /// Widths of a strip.
+    /// Widths of a slab.
     step: [T; 2],
     /// No coordinates of a place in it add up to more.
     size: T,
@@ -77,7 +70,7 @@ struct Part<'p, T> {
 
 impl<'p, T: Scalar> Part<'p, T> {
     /// The part around the bounded objects; `None` if there are none or they span nothing.
-    fn of(scene: &Scene<'_, T>, plane: &'p Plane<T>) -> Option<Self> {
+    fn of(scene: &Source<'_, T>, plane: &'p Plane<T>) -> Option<Self> {
         let n = plane.normal().abs();
         let normal_axis = if n.x > n.y && n.x > n.z {
             0
@@ -88,15 +81,17 @@ impl<'p, T: Scalar> Part<'p, T> {
         };
         let [(low_u, step_u, u), (low_v, step_v, v)] = Axis::BOTH.map(|axis| {
             let (mut low, mut high) = (T::MAX, -T::MAX);
-            for ball in scene.objects().filter_map(Ball::around) {
-                let center = axis.of(across(normal_axis, ball.center));
-                high = (center + ball.radius).max(high);
-                low = -((ball.radius - center).max(-low));
-            }
+            scene.geometry.for_each(|_, object| {
+                if let Some(ball) = object.bounding_sphere() {
+                    let center = axis.of(across(normal_axis, ball.center));
+                    high = (center + ball.radius).max(high);
+                    low = -((ball.radius - center).max(-low));
+                }
+            });
             let middle = (low + high) * T::HALF;
             let half = (high - low) * T::HALF * widening();
-            let step = (half + half) / T::from_i32(Strip::PER_AXIS as i32);
-            // The first strip reaches a step further down.
+            let step = (half + half) / T::from_i32(Slab::PER_AXIS as i32);
+            // The first slab reaches a step further down.
             (middle - half, step, middle.abs() + half + step)
         });
         // n·p = height, so this bounds the third coordinate; the normal's largest component is over ½.
@@ -111,17 +106,17 @@ impl<'p, T: Scalar> Part<'p, T> {
         })
     }
 
-    /// The coordinate along an axis where a strip begins.
+    /// The coordinate along an axis where a slab begins.
     fn border(&self, axis: Axis, number: i32) -> T {
         let steps = if number == 0 { -1 } else { number };
         axis.of(self.low) + axis.of(self.step) * T::from_i32(steps)
     }
 
-    /// What can be met from a strip.
-    fn strip(&self, scene: &Scene<'_, T>, axis: Axis, number: i32) -> Strip {
+    /// What can be met from a slab.
+    fn slab(&self, scene: &Source<'_, T>, axis: Axis, number: i32) -> Slab {
         let (from, to) = (self.border(axis, number), self.border(axis, number + 1));
-        let along = |ball: &Ball<T>| axis.of(across(self.normal_axis, ball.center));
-        Strip {
+        let along = |ball: &BoundingSphere<T>| axis.of(across(self.normal_axis, ball.center));
+        Slab {
             ahead: [
                 self.collect(scene, |ball, reach| !(along(ball) + reach < from)),
                 self.collect(scene, |ball, reach| !(along(ball) - reach > to)),
@@ -137,9 +132,9 @@ impl<'p, T: Scalar> Part<'p, T> {
 
     /// The objects with a ball, whose radius a margin is added to, for which something holds, and those
     /// without one.
-    fn collect(&self, scene: &Scene<'_, T>, holds: impl Fn(&Ball<T>, T) -> bool) -> ObjectSet {
-        collect(scene, |object| {
-            Ball::around(object).is_none_or(|ball| {
+    fn collect(&self, scene: &Source<'_, T>, holds: impl Fn(&BoundingSphere<T>, T) -> bool) -> ObjectSet {
+        collect(&scene.geometry, |object| {
+            object.bounding_sphere().is_none_or(|ball| {
                 let margin = margin(self.size + size(ball.center), ball.radius);
                 holds(&ball, ball.radius + margin)
             })
@@ -149,7 +144,7 @@ impl<'p, T: Scalar> Part<'p, T> {
     /// The place in the middle of the part but for its coordinate along an axis.
     fn place(&self, axis: Axis, coordinate: T) -> Vec3<T> {
         let middle = |other: Axis| {
-            let steps = T::from_i32(Strip::PER_AXIS as i32) * T::HALF;
+            let steps = T::from_i32(Slab::PER_AXIS as i32) * T::HALF;
             other.of(self.low) + other.of(self.step) * steps
         };
         let [u, v] = match axis {
@@ -165,13 +160,13 @@ impl<'p, T: Scalar> Part<'p, T> {
     }
 
     /// Whether a ball lies beyond the first of two borders as the light sees it: beyond the plane through
-    /// that border and the light, on whose other side all rays from the strip to the light stay.
+    /// that border and the light, on whose other side all rays from the slab to the light stay.
     fn is_outside(
         &self,
         light: &Light<T>,
         axis: Axis,
         [border, other]: [T; 2],
-        ball: &Ball<T>,
+        ball: &BoundingSphere<T>,
         reach: T,
     ) -> bool {
         let place = self.place(axis, border);
@@ -197,7 +192,7 @@ impl<'p, T: Scalar> Part<'p, T> {
         }
         let height = |point: Vec3<T>| wall.dot(point - light.position) / length;
         let margin = margin(size(light.position), T::ZERO);
-        let (strip, ball) = (height(self.place(axis, other)), height(ball.center));
-        (strip > margin && ball < -(reach + margin)) || (strip < -margin && ball > reach + margin)
+        let (slab, ball) = (height(self.place(axis, other)), height(ball.center));
+        (slab > margin && ball < -(reach + margin)) || (slab < -margin && ball > reach + margin)
     }
 }

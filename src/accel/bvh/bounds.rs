@@ -1,7 +1,7 @@
 //! Boxes along the axes.
 
 use crate::scalar::Scalar;
-use crate::scene::{Scene, TreeEntry};
+use crate::shape::Geometry;
 use crate::vec3::Vec3;
 
 /// A box, or nothing if its lowest corner is above its highest.
@@ -9,11 +9,6 @@ use crate::vec3::Vec3;
 pub(super) struct Bounds<T> {
     pub(super) low: Vec3<T>,
     pub(super) high: Vec3<T>,
-}
-
-/// Component by component.
-fn pick<T>(a: Vec3<T>, b: Vec3<T>, choose: impl Fn(T, T) -> T) -> Vec3<T> {
-    Vec3::new(choose(a.x, b.x), choose(a.y, b.y), choose(a.z, b.z))
 }
 
 impl<T: Scalar> Bounds<T> {
@@ -24,30 +19,22 @@ impl<T: Scalar> Bounds<T> {
         }
     }
 
-    /// The box around what rays can meet of an object.
-    pub(super) fn around(scene: &Scene<'_, T>, entry: TreeEntry) -> Self {
-        let exact = if entry.is_triangle() {
-            scene.triangles.get(entry.index()).map(|triangle| {
-                let vertices = triangle.vertices();
-                vertices.iter().fold(Self::nothing(), |b, v| b.with(*v))
-            })
-        } else {
-            scene.spheres.get(entry.index()).map(|sphere| {
-                let (center, radius) = (sphere.center(), Vec3::splat(sphere.radius()));
-                Self {
-                    low: center - radius,
-                    high: center + radius,
-                }
-            })
-        };
-        // Entries are indices of objects.
-        exact.unwrap_or(Self::nothing()).widened()
+    /// The box around what rays can hit of the object of an index.
+    pub(super) fn around(geometry: &Geometry<'_, T>, entry: u32) -> Self {
+        let exact = geometry
+            .object(entry as usize)
+            .and_then(|object| object.bounding_box());
+        // Entries are indices of bounded objects.
+        exact
+            .map_or(Self::nothing(), |[low, high]| Self { low, high })
+            .widened()
     }
 
     /// The box with the margin of the tests. The largest coordinates of each axis add up to at least
     /// `|c| + r`.
     fn widened(self) -> Self {
-        let largest = pick(self.low.abs(), self.high.abs(), T::max);
+        let (low, high) = (self.low.abs(), self.high.abs());
+        let largest = Vec3::new(low.x.max(high.x), low.y.max(high.y), low.z.max(high.z));
         let size = largest.x + largest.y + largest.z;
         let margin = size * T::EPSILON * T::from_i32(64) + T::SMALLEST_TO_SQUARE * T::from_i32(8);
         Self {
@@ -56,20 +43,11 @@ impl<T: Scalar> Bounds<T> {
         }
     }
 
-    fn with(self, point: Vec3<T>) -> Self {
-        self.around_both(Self {
-            low: point,
-            high: point,
-        })
-    }
-
     /// The box around both.
     pub(super) fn around_both(self, other: Self) -> Self {
-        let min = |a: T, b: T| if b < a { b } else { a };
-        let max = |a: T, b: T| if b > a { b } else { a };
         Self {
-            low: pick(self.low, other.low, min),
-            high: pick(self.high, other.high, max),
+            low: self.low.min_by_component(other.low),
+            high: self.high.max_by_component(other.high),
         }
     }
 

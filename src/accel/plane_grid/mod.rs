@@ -1,72 +1,76 @@
 //! Which objects a ray that leaves a plane can meet, by the place where it starts: the data; how it is
-//! found is told in `visibility`.
+//! found is told in [`build`].
+
+mod build;
+
+pub(super) use build::plane_grid;
 
 use super::ObjectSet;
 use crate::scalar::Scalar;
 use crate::vec3::Vec3;
 
-/// What the rays can meet that leave a plane, by the place where they start: strips across two axes.
+/// What the rays can meet that leave a plane, by the place where they start: slabs across two axes.
 ///
-/// A place lies in one strip of either axis, unless it is so far away that it lies in none, where anything
+/// A place lies in one slab of either axis, unless it is so far away that it lies in none, where anything
 /// may be met. The sets tell bounded objects apart; planes are in all of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Zones<T = f32> {
-    /// The axis along which the normal is longest: 0, 1 or 2 for x, y or z. The strips lie across the two
+pub struct PlaneGrid<T = f32> {
+    /// The axis along which the normal is longest: 0, 1 or 2 for x, y or z. The slabs lie across the two
     /// others, in their order.
     pub normal_axis: u8,
-    /// Where the strips begin. (The first reaches another strip's width further down.)
+    /// Where the slabs begin. (The first reaches another slab's width further down.)
     pub low: [T; 2],
     /// Strips in a unit of length.
     pub density: [T; 2],
-    /// The strips, from the lowest coordinate to the highest.
-    pub strips: [[Strip; Strip::PER_AXIS]; 2],
+    /// The slabs, from the lowest coordinate to the highest.
+    pub slabs: [[Slab; Slab::PER_AXIS]; 2],
 }
 
-/// What can be met from a strip of a plane.
+/// What can be met from a slab of a plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Strip {
+pub struct Slab {
     /// Objects ahead of mirrored and refracted rays that go up along the axis, and that go down.
     pub ahead: [ObjectSet; 2],
-    /// Objects that may stand between the strip and a light.
+    /// Objects that may stand between the slab and a light.
     pub occluders: ObjectSet,
 }
 
-/// A place on a plane: a strip of either axis.
+/// A place on a plane: a slab of either axis.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Zone<'a> {
+pub(crate) struct Cell<'a> {
     normal_axis: u8,
-    strips: [&'a Strip; 2],
+    slabs: [&'a Slab; 2],
 }
 
-impl<T: Scalar> Zones<T> {
+impl<T: Scalar> PlaneGrid<T> {
     /// Anything may be met.
     pub const ALL: Self = Self {
         normal_axis: 0,
         low: [T::ZERO; 2],
         density: [T::ZERO; 2],
-        strips: [[Strip::ALL; Strip::PER_AXIS]; 2],
+        slabs: [[Slab::ALL; Slab::PER_AXIS]; 2],
     };
 
-    /// The strips in which a place lies.
+    /// The slabs in which a place lies.
     #[inline(always)]
-    pub(crate) fn zone(&self, place: Vec3<T>) -> Option<Zone<'_>> {
+    pub(crate) fn cell(&self, place: Vec3<T>) -> Option<Cell<'_>> {
         let [u, v] = across(self.normal_axis, place);
-        let strip = |axis: usize, coordinate: T| {
+        let slab = |axis: usize, coordinate: T| {
             let index = coordinate
                 .minus(self.low[axis])
                 .times(self.density[axis])
                 .to_i32();
-            self.strips[axis].get(index as usize)
+            self.slabs[axis].get(index as usize)
         };
-        Some(Zone {
+        Some(Cell {
             normal_axis: self.normal_axis,
-            strips: [strip(0, u)?, strip(1, v)?],
+            slabs: [slab(0, u)?, slab(1, v)?],
         })
     }
 }
 
-impl Strip {
-    /// The number of strips across an axis.
+impl Slab {
+    /// The number of slabs across an axis.
     pub const PER_AXIS: usize = 8;
 
     /// Anything may be met.
@@ -76,20 +80,20 @@ impl Strip {
     };
 }
 
-impl Zone<'_> {
+impl Cell<'_> {
     /// Objects that may stand between it and a light.
     #[inline(always)]
     pub(crate) fn occluders(&self) -> ObjectSet {
-        let [u, v] = self.strips;
+        let [u, v] = self.slabs;
         u.occluders.intersection(v.occluders)
     }
 
     /// Objects ahead of a mirrored or refracted ray.
     #[inline(always)]
     pub(crate) fn ahead<T: Scalar>(&self, direction: Vec3<T>) -> ObjectSet {
-        let ahead = |strip: &Strip, component: T| strip.ahead[usize::from(component.is_negative())];
+        let ahead = |slab: &Slab, component: T| slab.ahead[usize::from(component.is_negative())];
         let [u, v] = across(self.normal_axis, direction);
-        ahead(self.strips[0], u).intersection(ahead(self.strips[1], v))
+        ahead(self.slabs[0], u).intersection(ahead(self.slabs[1], v))
     }
 }
 

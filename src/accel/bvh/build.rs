@@ -5,8 +5,9 @@ use core::cell::Cell;
 use heapless::VecView;
 
 use super::bounds::{Bounds, along};
+use super::{Bvh, BvhNode, NodeContent};
 use crate::scalar::Scalar;
-use crate::scene::{NodeContent, PoolsMut, Scene, Tree, TreeEntry, TreeNode};
+use crate::shape::Geometry;
 
 /// Fewer objects make no leaf, so that a tree has fewer nodes than objects.
 const SMALLEST_LEAF: usize = 2;
@@ -17,25 +18,18 @@ const LARGEST_LEAF: usize = 8;
 /// A node may be divided between any two of so many parts of an axis.
 const BINS: usize = 16;
 
-impl<T: Scalar> PoolsMut<'_, T> {
-    /// Builds the tree of a large scene, if the pools have room for it.
-    pub(in crate::visibility) fn build_tree(&mut self) {
-        self.fill_tree(Tree::<T>::FEWEST_OBJECTS, build);
-    }
-}
-
 /// Builds the tree of the objects of `entries`, which it puts in another order.
 ///
 /// Binned surface-area heuristic (Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies",
 /// 2007), breadth first: a node that may still be divided is a leaf, and dividing it appends two
 /// leaves. So there is nothing to remember but where a level ends.
-pub(super) fn build<T: Scalar>(
-    scene: &Scene<'_, T>,
-    entries: &mut [TreeEntry],
-    nodes: &mut VecView<TreeNode<T>>,
+pub(in crate::accel) fn build<T: Scalar>(
+    geometry: &Geometry<'_, T>,
+    entries: &mut [u32],
+    nodes: &mut VecView<BvhNode<T>>,
 ) {
     let builder = Builder {
-        scene,
+        geometry,
         entries: Cell::from_mut(entries).as_slice_of_cells(),
     };
     nodes.clear();
@@ -52,9 +46,9 @@ pub(super) fn build<T: Scalar>(
             level_end = last;
         }
         if let Some(node) = nodes.get_mut(index)
-            && let Some((axis, halves)) = builder.divide(node, Tree::<T>::MAX_DEPTH - depth)
+            && let Some((axis, halves)) = builder.divide(node, Bvh::<T>::MAX_DEPTH - depth)
         {
-            *node = TreeNode::new(
+            *node = BvhNode::new(
                 node.low(),
                 node.high(),
                 NodeContent::Inner {
@@ -124,12 +118,12 @@ impl<T: Scalar> Scale<T> {
 }
 
 struct Builder<'b, 'a, T> {
-    scene: &'b Scene<'a, T>,
-    entries: &'b [Cell<TreeEntry>],
+    geometry: &'b Geometry<'a, T>,
+    entries: &'b [Cell<u32>],
 }
 
 impl<T: Scalar> Builder<'_, '_, T> {
-    fn cells(&self, range: Range) -> &[Cell<TreeEntry>] {
+    fn cells(&self, range: Range) -> &[Cell<u32>] {
         self.entries
             .get(range.first..range.first + range.count)
             .unwrap_or_default()
@@ -139,14 +133,14 @@ impl<T: Scalar> Builder<'_, '_, T> {
     fn boxes(&self, range: Range) -> impl Iterator<Item = Bounds<T>> {
         self.cells(range)
             .iter()
-            .map(|entry| Bounds::around(self.scene, entry.get()))
+            .map(|entry| Bounds::around(self.geometry, entry.get()))
     }
 
-    fn leaf(&self, range: Range) -> TreeNode<T> {
+    fn leaf(&self, range: Range) -> BvhNode<T> {
         let bounds = self
             .boxes(range)
             .fold(Bounds::nothing(), Bounds::around_both);
-        TreeNode::new(
+        BvhNode::new(
             bounds.low,
             bounds.high,
             NodeContent::Leaf {
@@ -158,7 +152,7 @@ impl<T: Scalar> Builder<'_, '_, T> {
 
     /// Divides the objects of a leaf if that pays, and tells along which axis. `levels` more may
     /// follow.
-    fn divide(&self, node: &TreeNode<T>, levels: usize) -> Option<(usize, [Range; 2])> {
+    fn divide(&self, node: &BvhNode<T>, levels: usize) -> Option<(usize, [Range; 2])> {
         let NodeContent::Leaf { first, count } = node.content() else {
             return None;
         };
@@ -266,7 +260,7 @@ impl<T: Scalar> Builder<'_, '_, T> {
         let mut lower = cells.iter();
         for cell in cells {
             let entry = cell.get();
-            if scale.bin(&Bounds::around(self.scene, entry)) < first_upper_bin
+            if scale.bin(&Bounds::around(self.geometry, entry)) < first_upper_bin
                 && let Some(place) = lower.next()
             {
                 cell.set(place.get());

@@ -2,15 +2,10 @@
 
 use std::vec::Vec;
 
-use super::Walk;
 use super::bounds::Bounds;
-use super::build::build;
-use crate::background::Background;
-use crate::camera::{Camera, Resolution};
-use crate::color::Color;
+use super::{Bvh, BvhNode, NodeContent, Walk, build};
 use crate::ray::Ray;
-use crate::scene::{NodeContent, Scene, Tree, TreeEntry, TreeNode};
-use crate::shape::{Sphere, Surface};
+use crate::shape::{Geometry, Sphere, Surface};
 use crate::vec3::Vec3;
 
 fn sphere((center, radius): (Vec3<f32>, f32)) -> Sphere<f32> {
@@ -21,26 +16,10 @@ fn sphere((center, radius): (Vec3<f32>, f32)) -> Sphere<f32> {
     Sphere::new(center, radius, surface).unwrap()
 }
 
-fn scene(spheres: &[Sphere<f32>]) -> Scene<'_> {
-    Scene {
-        camera: Camera::default(),
-        resolution: Resolution {
-            width: 1,
-            height: 1,
-        },
-        ambient: 0.0,
-        background: Background {
-            color: Color::BLACK,
-            sky: false,
-        },
-        lights: &[],
+fn scene(spheres: &[Sphere<f32>]) -> Geometry<'_> {
+    Geometry {
         spheres,
-        planes: &[],
-        triangles: &[],
-        materials: &[],
-        sides: &[],
-        zones: &[],
-        tree: Tree::NONE,
+        ..Geometry::NONE
     }
 }
 
@@ -48,8 +27,8 @@ fn scene(spheres: &[Sphere<f32>]) -> Scene<'_> {
 fn check(spheres: &[(Vec3<f32>, f32)]) -> usize {
     let spheres: Vec<Sphere<f32>> = spheres.iter().copied().map(sphere).collect();
     let scene = scene(&spheres);
-    let mut entries: Vec<TreeEntry> = (0..spheres.len() as u32).map(TreeEntry::sphere).collect();
-    let mut nodes = heapless::Vec::<TreeNode, 4096>::new();
+    let mut entries: Vec<u32> = (0..spheres.len() as u32).collect();
+    let mut nodes = heapless::Vec::<BvhNode, 4096>::new();
     build(&scene, &mut entries, nodes.as_mut_view());
     assert!(!nodes.is_empty() && nodes.len() < spheres.len().max(2));
 
@@ -68,7 +47,7 @@ fn check(spheres: &[(Vec3<f32>, f32)]) -> usize {
                 deepest = deepest.max(depths[index]);
                 assert!(count >= 1);
                 for entry in &entries[first as usize..][..count as usize] {
-                    found[entry.index()] += 1;
+                    found[*entry as usize] += 1;
                     assert!(holds(&Bounds::around(&scene, *entry)));
                 }
             }
@@ -90,10 +69,10 @@ fn check(spheres: &[(Vec3<f32>, f32)]) -> usize {
     }
     assert_eq!(reached as usize, nodes.len());
     assert!(found.iter().all(|times| *times == 1), "{found:?}");
-    assert!(deepest <= Tree::<f32>::MAX_DEPTH);
+    assert!(deepest <= Bvh::<f32>::MAX_DEPTH);
 
     // A walk that nothing stops visits every node.
-    let tree = Tree {
+    let tree = Bvh {
         nodes: &nodes,
         entries: &entries,
     };
@@ -147,7 +126,7 @@ fn numbers_at_the_end_of_the_range_make_a_tree() {
     check(&spheres);
     spheres.push((Vec3::splat(f32::NAN), 1.0));
     let spheres: Vec<Sphere<f32>> = spheres.into_iter().map(sphere).collect();
-    let mut entries: Vec<TreeEntry> = (0..spheres.len() as u32).map(TreeEntry::sphere).collect();
-    let mut nodes = heapless::Vec::<TreeNode, 64>::new();
+    let mut entries: Vec<u32> = (0..spheres.len() as u32).collect();
+    let mut nodes = heapless::Vec::<BvhNode, 64>::new();
     build(&scene(&spheres), &mut entries, nodes.as_mut_view());
 }
