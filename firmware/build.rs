@@ -68,5 +68,6 @@ fn without_squaring(material: &Material) -> Material {
         material.inverse_index(),
         material.bend(),
         Material::<f32>::FRACTIONAL,
+        material.faint_alignment(),
     )
 }

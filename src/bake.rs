@@ -100,7 +100,7 @@ impl<T: Scalar> fmt::Display for Baked<'_, Scene<'_, T>> {
         list(f, "", accel.grids, ",")?;
         list(f, "", accel.bvh.nodes, ",")?;
         list(f, "", accel.bvh.entries, ",")?;
-        list(f, "", accel.faint, ",")?;
+        writeln!(f, "    {},", accel.knows_faint)?;
         write!(f, "    ))")
     }
 }
@@ -189,7 +189,7 @@ impl<T: Scalar> fmt::Display for Baked<'_, Material<T>> {
             f,
             "::scanray::Material::from_parts(::scanray::MaterialDescription {{ \
              diffuse: {}, specular: {}, ambient: {}, reflection: {}, shininess: {}, \
-             refraction: {}, index_of_refraction: {} }}, {}, {}, {})",
+             refraction: {}, index_of_refraction: {} }}, {}, {}, {}, {})",
             Baked(&d.diffuse),
             Baked(&d.specular),
             Baked(&d.ambient),
@@ -199,7 +199,8 @@ impl<T: Scalar> fmt::Display for Baked<'_, Material<T>> {
             Number(d.index_of_refraction),
             Number(material.inverse_index()),
             Number(material.bend()),
-            material.whole_shininess()
+            material.whole_shininess(),
+            material.faint_alignment()
         )
     }
 }
@@ -281,12 +282,6 @@ impl<T: Scalar> fmt::Display for Baked<'_, BvhNode<T>> {
                 write!(f, "Inner {{ first: {first}, axis: {axis} }})")
             }
         }
-    }
-}
-
-impl fmt::Display for Baked<'_, i16> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
     }
 }
 

@@ -27,13 +27,15 @@ pub struct MaterialDescription<T = f32> {
 ///
 /// Invariants: `inverse_index` is `1/n` and `bend` is `n² − 1` of the index of refraction `n` of a material
 /// that refracts; `whole_shininess` is the shininess if that is a whole number that repeated squaring may
-/// raise, else [`Material::FRACTIONAL`].
+/// raise, else [`Material::FRACTIONAL`]; `faint_alignment` is 0 or belongs to a scene's lights, and is used only
+/// where [`Accel`](crate::accel::Accel) says that it does to this one's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material<T = f32> {
     description: MaterialDescription<T>,
     inverse_index: T,
     bend: T,
     whole_shininess: u16,
+    faint_alignment: i16,
 }
 
 /// One way through a surface: the arguments of [`crate::Vec3::refract`].
@@ -66,7 +68,7 @@ impl<T: Scalar> Material<T> {
         } else {
             Self::FRACTIONAL
         };
-        Self::from_parts(description, inverse_index, bend, whole_shininess)
+        Self::from_parts(description, inverse_index, bend, whole_shininess, 0)
     }
 
     /// A material from values that [`Material::new`] has computed: for baked scenes.
@@ -75,13 +77,19 @@ impl<T: Scalar> Material<T> {
         inverse_index: T,
         bend: T,
         whole_shininess: u16,
-        ) -> Self {
+        faint_alignment: i16,
+    ) -> Self {
         Self {
             description,
             inverse_index,
             bend,
             whole_shininess,
+            faint_alignment,
         }
+    }
+
+    pub(crate) fn set_faint_alignment(&mut self, alignment: i16) {
+        self.faint_alignment = alignment;
     }
 
     /// The numbers it was made from.
@@ -124,6 +132,13 @@ impl<T: Scalar> Material<T> {
     /// The shininess as a whole exponent, or [`Material::FRACTIONAL`].
     pub const fn whole_shininess(&self) -> u16 {
         self.whole_shininess
+    }
+
+    /// The [`Scalar::upper_half`] of a number below which the alignment of view and mirrored light adds no highlight
+    /// that changes a colour, with the ambient light and the lights of the scene; 0 if that is not known.
+    #[inline(always)]
+    pub const fn faint_alignment(&self) -> i16 {
+        self.faint_alignment
     }
 
     /// Objects with an index of refraction of exactly 1 let all light pass.

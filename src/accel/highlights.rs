@@ -14,7 +14,7 @@ use crate::scalar::Scalar;
 use super::Source;
 
 /// The [`Scalar::upper_half`] of a number below which an alignment adds no highlight that is seen; 0 if there is no such number.
-pub(super) fn faint_alignment<T: Scalar>(
+pub(crate) fn faint_alignment<T: Scalar>(
     source: &Source<'_, T>,
     ambient: T,
     material: &Material<T>,

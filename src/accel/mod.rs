@@ -16,7 +16,7 @@
 
 mod bvh;
 mod candidates;
-mod highlights;
+pub(crate) mod highlights;
 mod object_set;
 mod plane_grid;
 mod row;
@@ -52,9 +52,8 @@ pub struct Accel<'a, T = f32> {
     pub(crate) grids: &'a [PlaneGrid<T>],
     /// Of a large scene, what its bounded objects are found by.
     pub(crate) bvh: Bvh<'a, T>,
-    /// By material, the [`Scalar::upper_half`] of an alignment of view and mirrored light below which a highlight changes no
-    /// colour; where there is no entry, any may. It depends on the ambient light too.
-    pub(crate) faint: &'a [i16],
+    /// The materials' own [`Material::faint_alignment`] belong to the scene's lights and ambient light.
+    pub(crate) knows_faint: bool,
 }
 
 impl<'a, T> Accel<'a, T> {
@@ -63,7 +62,7 @@ impl<'a, T> Accel<'a, T> {
         sides: &[],
         grids: &[],
         bvh: Bvh::NONE,
-        faint: &[],
+        knows_faint: false,
     };
 
     /// For baked scenes alone: nothing checks that it belongs to the scene.
@@ -73,13 +72,13 @@ impl<'a, T> Accel<'a, T> {
         grids: &'a [PlaneGrid<T>],
         nodes: &'a [BvhNode<T>],
         entries: &'a [u32],
-        faint: &'a [i16],
+        knows_faint: bool,
     ) -> Self {
         Self {
             sides,
             grids,
             bvh: Bvh { nodes, entries },
-            faint,
+            knows_faint,
         }
     }
 
@@ -120,8 +119,7 @@ pub struct AccelMut<'p, T> {
     /// As many as entries.
     pub(crate) nodes: &'p mut VecView<BvhNode<T>>,
     pub(crate) entries: &'p mut VecView<u32>,
-    /// As many as materials.
-    pub(crate) faint: &'p mut VecView<i16>,
+    pub(crate) knows_faint: &'p mut bool,
 }
 
 impl<T: Scalar> AccelMut<'_, T> {
@@ -131,18 +129,7 @@ impl<T: Scalar> AccelMut<'_, T> {
         self.grids.clear();
         self.nodes.clear();
         self.entries.clear();
-        self.faint.clear();
-    }
-
-    /// Finds which highlights nobody sees.
-    pub(crate) fn find_faint_highlights(&mut self, source: &Source<'_, T>, ambient: T) {
-        self.faint.clear();
-        for material in source.materials {
-            let alignment = highlights::faint_alignment(source, ambient, material);
-            if self.faint.push(alignment).is_err() {
-                break;
-            }
-        }
+        *self.knows_faint = false;
     }
 
     /// Derives what there is room for: lists of candidates and plane grids.

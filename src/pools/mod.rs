@@ -18,6 +18,7 @@ use core::marker::PhantomData;
 use heapless::VecView;
 
 use crate::accel::AccelMut;
+use crate::accel::highlights::faint_alignment;
 use crate::background::Background;
 use crate::camera::{Camera, Resolution};
 use crate::light::Light;
@@ -315,11 +316,29 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
     pub fn prepare(&mut self) {
         let source = self.lent.scene(self.settings).source();
         self.accel.find_candidates(&source);
-        self.accel.find_faint_highlights(&source, self.settings.ambient);
         // Not compiled for pools without room.
         if D::STAGES.contains(Stages::BVH) {
             self.accel.build_bvh(&source.geometry);
         }
+        self.find_faint_highlights();
+    }
+
+    /// Finds which highlights nobody sees.
+    fn find_faint_highlights(&mut self) {
+        let count = self.lent.scene(self.settings).materials.len();
+        for index in 0..count {
+            let source = self.lent.scene(self.settings).source();
+            let faint = source
+                .materials
+                .get(index)
+                .map(|material| faint_alignment(&source, self.settings.ambient, material));
+            if let (Some(faint), Ok(material)) =
+                (faint, entry::<Material<T>, T>(&mut self.lent, index))
+            {
+                material.set_faint_alignment(faint);
+            }
+        }
+        *self.accel.knows_faint = true;
     }
 
     /// Sets where the scene is seen from; what was derived stays true.
@@ -335,7 +354,7 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
     /// Sets the intensity of the ambient light.
     pub fn set_ambient(&mut self, ambient: T) {
         self.settings.ambient = ambient;
-        self.accel.faint.clear();
+        *self.accel.knows_faint = false;
     }
 
     /// Sets what is behind everything.

@@ -64,7 +64,6 @@ macro_rules! scene_pools {
                 { $name::ACCEL[0] },
                 { $name::ACCEL[1] },
                 { $name::ACCEL[2] },
-                { $name::ACCEL[3] },
             >,
         }
 
@@ -72,7 +71,7 @@ macro_rules! scene_pools {
         impl $name {
             const POOLS: &[(&str, usize)] = &[$((stringify!($pool), { $capacity })),+];
             const LEFT_OUT: &[&str] = &[$($(stringify!($left_out)),+)?];
-            const ACCEL: [usize; 4] = $crate::pools::accel_capacities(Self::POOLS, Self::LEFT_OUT);
+            const ACCEL: [usize; 3] = $crate::pools::accel_capacities(Self::POOLS, Self::LEFT_OUT);
 
             /// The stages that a scene in these pools can need.
             pub const STAGES: $crate::Stages = {
@@ -176,27 +175,16 @@ macro_rules! parse_into_pools {
 /// Room for what is derived from a scene.
 #[doc(hidden)]
 #[derive(Clone, Debug)]
-pub struct AccelPools<
-    T,
-    const SIDES: usize,
-    const GRIDS: usize,
-    const BVH: usize,
-    const MATERIALS: usize,
-> {
+pub struct AccelPools<T, const SIDES: usize, const GRIDS: usize, const BVH: usize> {
     sides: Vec<[Candidates; 2], SIDES>,
     grids: Vec<PlaneGrid<T>, GRIDS>,
     nodes: Vec<BvhNode<T>, BVH>,
     entries: Vec<u32, BVH>,
-    faint: Vec<i16, MATERIALS>,
+    knows_faint: bool,
 }
 
-impl<
-    T: Scalar,
-    const SIDES: usize,
-    const GRIDS: usize,
-    const BVH: usize,
-    const MATERIALS: usize,
-> AccelPools<T, SIDES, GRIDS, BVH, MATERIALS>
+impl<T: Scalar, const SIDES: usize, const GRIDS: usize, const BVH: usize>
+    AccelPools<T, SIDES, GRIDS, BVH>
 {
     /// Nothing is known.
     pub const fn new() -> Self {
@@ -205,7 +193,7 @@ impl<
             grids: Vec::new(),
             nodes: Vec::new(),
             entries: Vec::new(),
-            faint: Vec::new(),
+            knows_faint: false,
         }
     }
 
@@ -218,7 +206,7 @@ impl<
                 nodes: &self.nodes,
                 entries: &self.entries,
             },
-            faint: &self.faint,
+            knows_faint: self.knows_faint,
         }
     }
 
@@ -229,18 +217,13 @@ impl<
             grids: &mut self.grids,
             nodes: &mut self.nodes,
             entries: &mut self.entries,
-            faint: &mut self.faint,
+            knows_faint: &mut self.knows_faint,
         }
     }
 }
 
-impl<
-    T: Scalar,
-    const SIDES: usize,
-    const GRIDS: usize,
-    const BVH: usize,
-    const MATERIALS: usize,
-> Default for AccelPools<T, SIDES, GRIDS, BVH, MATERIALS>
+impl<T: Scalar, const SIDES: usize, const GRIDS: usize, const BVH: usize> Default
+    for AccelPools<T, SIDES, GRIDS, BVH>
 {
     fn default() -> Self {
         Self::new()
@@ -332,7 +315,7 @@ pub const fn stages_of_pools(pools: &[(&str, usize)], bvh: usize) -> Stages {
 /// [`stages_of_pools`] without some, by their words.
 #[doc(hidden)]
 pub const fn stages_of_declaration(pools: &[(&str, usize)], left_out: &[&str]) -> Stages {
-    let [_, _, bvh, _] = accel_capacities(pools, left_out);
+    let [_, _, bvh] = accel_capacities(pools, left_out);
     let mut stages = stages_of_pools(pools, bvh);
     let mut i = 0;
     while i < left_out.len() {
@@ -362,18 +345,18 @@ const fn stage_of_word(word: &str) -> Stages {
 /// With fewer bounded objects than this, lists of candidates are kept; with more, a hierarchy.
 const LISTED: usize = Bvh::<f32>::FEWEST_OBJECTS;
 
-/// Objects with candidates, planes with grids, bounded objects in a hierarchy and materials that there is to be room for.
+/// Objects with candidates, planes with grids, and bounded objects in a hierarchy, that there is to be room for.
 #[doc(hidden)]
-pub const fn accel_capacities(pools: &[(&str, usize)], left_out: &[&str]) -> [usize; 4] {
+pub const fn accel_capacities(pools: &[(&str, usize)], left_out: &[&str]) -> [usize; 3] {
     let mut i = 0;
     while i < left_out.len() {
         if is_word(left_out[i], "accel") {
-            return [0; 4];
+            return [0; 3];
         }
         i += 1;
     }
     let [all, planes, bounded] = objects(pools);
     let listed = if all < LISTED { all } else { LISTED };
     let bvh = if bounded < LISTED { 0 } else { bounded };
-    [listed, planes, bvh, capacity_of(pools, "materials")]
+    [listed, planes, bvh]
 }

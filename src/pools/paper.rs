@@ -53,7 +53,7 @@ pub struct ScenePools<
     triangles: Vec<Triangle<T>, TRIANGLES>,
     materials: Vec<Material<T>, MATERIALS>,
     lights: Vec<Light<T>, LIGHTS>,
-    accel: AccelPools<T, SIDES, PLANES, BVH, MATERIALS>,
+    accel: AccelPools<T, SIDES, PLANES, BVH>,
 }
 
 impl<

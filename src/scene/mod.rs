@@ -82,7 +82,7 @@ impl<'a, T: Scalar> Scene<'a, T> {
     #[must_use]
     pub const fn with_ambient(mut self, ambient: T) -> Self {
         self.ambient = ambient;
-        self.accel.faint = &[];
+        self.accel.knows_faint = false;
         self
     }
 

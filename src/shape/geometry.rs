@@ -59,6 +59,25 @@ impl<'a, T: Scalar> Geometry<'a, T> {
         None
     }
 
+    /// Whether there is an object of an index that a ray which leaves it cannot hit again.
+    pub(crate) fn is_flat(&self, index: usize) -> bool {
+        let mut index = index;
+        macro_rules! among {
+            ([$($shape:ident)*]) => {
+                $(
+                    let count = $shape::all(self).len();
+                    if index < count {
+                        return <$shape<T> as Primitive<T>>::IS_FLAT;
+                    }
+                    index -= count;
+                )*
+            };
+        }
+        for_each_shape!(among);
+        let _ = index;
+        false
+    }
+
     /// Calls a function with each object and its index, in their order.
     pub(crate) fn for_each(&self, mut each: impl FnMut(usize, Object<'a, T>)) {
         let mut index = 0;

@@ -221,14 +221,6 @@ impl<T: Scalar> Object<'_, T> {
         of_any_shape!(self, it => Primitive::bounding_box(*it))
     }
 
-    /// Whether a ray that leaves it cannot hit it again.
-    pub(crate) fn is_flat(&self) -> bool {
-        fn is_flat<T: Scalar, P: Primitive<T>>(_: &P) -> bool {
-            P::IS_FLAT
-        }
-        of_any_shape!(self, it => is_flat(*it))
-    }
-
     /// Whether it has a bounding box.
     pub(crate) fn is_bounded(&self) -> bool {
         self.bounding_box().is_some()

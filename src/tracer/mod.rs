@@ -116,8 +116,6 @@ pub(crate) struct Hit<'a, T> {
     /// The cell of the plane's grid, if it lies in one.
     cell: Option<Cell<'a>>,
     material: &'a Material<T>,
-    /// Alignments of view and mirrored light whose [`Scalar::upper_half`] is below it add no highlight that is seen.
-    faint: i16,
     /// Unit normal on the side the ray comes from.
     normal: Vec3<T>,
     /// `−normal·direction`, at least 0.
@@ -296,7 +294,8 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
 
     /// The object a ray meets first; of several at exactly the same distance the first in the file.
     pub fn nearest(&self, ray: &Ray<T>) -> Option<Nearest<'a, T>> {
-        let closest = self.closest(ray, self.all_for(ray), &mut ());
+        let all = self.without_flat(ray.leaves.object() as usize, ObjectSet::ALL);
+        let closest = self.closest(ray, all, &mut ());
         Some(Nearest {
             t: closest.t,
             object: self.scene.object(closest.index)?,
@@ -321,7 +320,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
             self.closest_in_bvh(ray, &mut closest, observer);
             return closest;
         }
-        let mut members = self.members(candidates);
+        let mut members = self.members(self.without_left(ray, candidates));
         let mut first = 0;
         macro_rules! closest_of_each {
             ([$($shape:ident)*]) => {
@@ -372,7 +371,8 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
 
     /// Whether an object that casts shadows lies on the ray within `0 < t < t_max`.
     pub fn occluded(&self, ray: &Ray<T>, t_max: T) -> bool {
-        self.occluded_observed(ray, t_max, self.all_for(ray), &mut ())
+        let all = self.without_flat(ray.leaves.object() as usize, ObjectSet::ALL);
+        self.occluded_observed(ray, t_max, all, &mut ())
     }
 
     #[inline(always)]
@@ -386,7 +386,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         if self.has_bvh() {
             return self.occluded_in_bvh(ray, t_max, observer);
         }
-        let mut members = self.members(candidates);
+        let mut members = self.members(self.without_left(ray, candidates));
         let mut first = 0;
         macro_rules! occluded_by_each {
             ([$($shape:ident)*]) => {
@@ -429,21 +429,35 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     }
 
     /// Whether an object of a flat shape is the one that the ray leaves, which it cannot hit again whatever rounding says.
+    /// Those that are told apart are not among the candidates.
     #[inline(always)]
     pub(super) fn is_left<P: Primitive<T>>(&self, ray: &Ray<T>, index: usize) -> bool {
-        // A flat object is not among the candidates of its own sides, where those are known and it is told apart.
-        let is_candidate = stage(NEEDS, Stages::MANY_OBJECTS) || self.scene.accel.sides.is_empty();
-        P::IS_FLAT && is_candidate && ray.leaves.object() as usize == index
+        P::IS_FLAT
+            && stage(NEEDS, Stages::MANY_OBJECTS)
+            && ray.leaves.object() as usize == index
     }
 
-    /// All objects but a flat one that the ray leaves.
-    fn all_for(&self, ray: &Ray<T>) -> ObjectSet {
-        let left = ray.leaves.object() as usize;
-        let is_flat = self.scene.geometry.object(left).is_some_and(|object| object.is_flat());
-        if is_flat && left < ObjectSet::TOLD_APART {
-            ObjectSet::ALL.without(ObjectSet::NONE.with(left))
+    /// Candidates without the object that the ray leaves, if it is flat.
+    #[inline(always)]
+    fn without_left(&self, ray: &Ray<T>, candidates: ObjectSet) -> ObjectSet {
+        // What is known of its sides leaves it out already.
+        if self.scene.accel.sides.is_empty() {
+            self.without_flat(ray.leaves.object() as usize, candidates)
         } else {
-            ObjectSet::ALL
+            candidates
+        }
+    }
+
+    /// Candidates without an object that is told apart, if it is flat.
+    // Scenes that were loaded or baked do not come here.
+    #[cold]
+    #[inline(never)]
+    fn without_flat(&self, index: usize, candidates: ObjectSet) -> ObjectSet {
+        let is_flat = self.scene.geometry.is_flat(index);
+        if is_flat && index < ObjectSet::TOLD_APART {
+            candidates.without(ObjectSet::NONE.with(index))
+        } else {
+            candidates
         }
     }
 
@@ -508,15 +522,6 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         match self.scene.accel.sides.get(side.index()) {
             Some(candidates) => candidates,
             None => anything(),
-        }
-    }
-
-    /// The entry of a material in the scene's faint highlights.
-    #[inline(always)]
-    fn faint(&self, surface: Surface) -> i16 {
-        match self.scene.accel.faint.get(surface.material as usize) {
-            Some(faint) if stage(NEEDS, Stages::SPECULAR) => *faint,
-            _ => 0,
         }
     }
 
@@ -672,7 +677,6 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
             candidates: self.candidates(facing),
             cell,
             material: self.material(surface)?,
-            faint: self.faint(surface),
             normal,
             cosine: slope.abs(),
             entering,

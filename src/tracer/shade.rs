@@ -90,7 +90,12 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
                 .double()
                 .times(hit.cosine)
                 .plus(direction.dot(ray.direction));
-            if alignment.upper_half() >= hit.faint && alignment.is_positive() {
+            let faint = if self.scene.accel.knows_faint {
+                hit.material.faint_alignment()
+            } else {
+                0
+            };
+            if alignment.upper_half() >= faint && alignment.is_positive() {
                 let highlight = self.phong_power(alignment, hit.material);
                 let light = light.specular * highlight * material.specular;
                 color = color + light;
