@@ -91,11 +91,17 @@ struct Readme;
 // Numbers, vectors, colours.
 mod soft_float;
 
+pub mod number;
+
 mod scalar;
 
 mod vec3;
 
 mod color;
+
+pub mod real;
+
+pub mod formula;
 
 mod stages;
 
@@ -147,7 +153,9 @@ pub use material::{Interface, Material, MaterialDescription};
 pub use parser::{DecimalError, Excerpt, Expected, Found, FromDecimal, ParseError, Range, Report};
 #[cfg(feature = "print")]
 pub use print::{PrintError, print};
-pub use ray::{ObjectNumber, Ray, Side, origin_offset};
+pub use ray::{ObjectNumber, Ray, Side};
+pub use number::Number;
+pub use real::Real;
 pub use render::{
     Adaptive, AdaptiveScanline, Budget, CenterSample, DisplayColor, Dithered, Exact, Frame,
     Picture, PixelSource, Progress, Progressive, Quantizer, SampleSource, Supersampled,

@@ -1,6 +1,7 @@
 //! What a surface is made of.
 
 use crate::color::Color;
+use crate::real::Real;
 use crate::scalar::Scalar;
 
 /// The numbers that describe a material, as scene text gives them. All are ≥ 0; only the index of
@@ -122,10 +123,7 @@ impl<T: Scalar> Material<T> {
     pub fn leaving(&self) -> Interface<T> {
         Interface {
             eta: self.description.index_of_refraction,
-            bend: -self
-                .bend
-                .times(self.inverse_index)
-                .times(self.inverse_index),
+            bend: (-Real(self.bend) * Real(self.inverse_index) * Real(self.inverse_index)).0,
         }
     }
 

@@ -3,7 +3,9 @@
 use super::{
     Barycentric, BoundingSphere, Geometry, Kind, Object, Primitive, Shape, ShapeError, Surface, SurfacePoint,
 };
-use crate::ray::{Ray, origin_offset};
+use crate::formula;
+use crate::ray::Ray;
+use crate::real::Real;
 use crate::scalar::Scalar;
 use crate::stages::Stages;
 use crate::vec3::Vec3;
@@ -69,12 +71,16 @@ impl<T: Scalar> Plane<T> {
     /// [`Plane::intersect`] without a limit; the distance may be infinite.
     #[inline(always)]
     pub(crate) fn meet(&self, ray: &Ray<T>) -> Option<T> {
-        let below = self.height.minus(ray.origin.component_along(self.normal));
-        let slope = ray.direction.component_along(self.normal);
-        if T::EMULATED && below.is_negative() != slope.is_negative() {
+        let (below, slope) = formula::plane::rise(
+            self.normal.real(),
+            Real(self.height),
+            ray.origin.real(),
+            ray.direction.real(),
+        );
+        if T::EMULATED && below.0.is_negative() != slope.0.is_negative() {
             return None;
         }
-        let t = below.over(slope);
+        let t = (below / slope).0;
         t.is_positive().then_some(t)
     }
 
@@ -84,19 +90,15 @@ impl<T: Scalar> Plane<T> {
         matches!(self.intersect(ray, t_max), Some(t) if t < t_max)
     }
 
-    /// The point at distance `t`, projected back onto the plane: at grazing angles `t` is uncertain by
-    /// `u/cos θ`.
+    /// The point at distance `t`, projected back onto the plane.
     #[inline(always)]
     pub fn surface_point(&self, ray: &Ray<T>, t: T) -> SurfacePoint<T> {
-        let n = self.normal;
-        let approximate = ray.at(t);
-        let above = approximate.component_along(n).minus(self.height);
-        let point = approximate.moved_along(n, -above);
-        let components = point.abs().component_along(n.abs());
+        let (normal, height) = (self.normal.real(), Real(self.height));
+        let point = formula::plane::project(ray.at(t).real(), normal, height);
         SurfacePoint {
-            point,
-            normal: n,
-            offset: origin_offset(components, self.height.abs()),
+            point: point.plain(),
+            normal: self.normal,
+            offset: formula::plane::offset(point, normal, height).0,
         }
     }
 }

@@ -4,7 +4,9 @@ use super::coarse::Sighting;
 use super::{
     Barycentric, BoundingSphere, Geometry, Kind, Object, Primitive, Shape, ShapeError, Surface, SurfacePoint,
 };
-use crate::ray::{Ray, origin_offset};
+use crate::formula::{self, origin_offset};
+use crate::ray::Ray;
+use crate::real::Real;
 use crate::scalar::Scalar;
 use crate::stages::Stages;
 use crate::vec3::Vec3;
@@ -107,22 +109,20 @@ impl<T: Scalar> Sphere<T> {
     }
 
     /// The distances of both crossings of the ray's line, nearer first.
-    ///
-    /// The discriminant comes from the squared distance between centre and line, `r² − |f − d·b|²`,
-    /// not from the difference of two squares `b² − (f·f − r²)`, which at radius/distance 1e-4
-    /// misjudges a third of all rays in `f32`. Ray Tracing Gems, ch. 7 (Haines et al.).
     #[inline(always)]
     fn crossings(&self, ray: &Ray<T>) -> Option<(T, T)> {
         if T::EMULATED && self.clearly_misses(ray) {
             return None;
         }
-        let f = self.center - ray.origin;
-        let b = f.dot(ray.direction);
-        let l = f - ray.direction * b;
-        let discriminant = self.radius_squared.minus(l.dot(l));
-        if discriminant.is_zero_or_positive() {
-            let half_chord = discriminant.sqrt();
-            Some((b.minus(half_chord), b.plus(half_chord)))
+        let (middle, discriminant) = formula::sphere::chord(
+            self.center.real(),
+            Real(self.radius_squared),
+            ray.origin.real(),
+            ray.direction.real(),
+        );
+        if discriminant.0.is_zero_or_positive() {
+            let (near, far) = formula::sphere::crossings(middle, discriminant);
+            Some((near.0, far.0))
         } else {
             None
         }
@@ -158,14 +158,15 @@ impl<T: Scalar> Sphere<T> {
         }
     }
 
-    /// The point at distance `t`, projected back onto the sphere: far from the camera `t` alone may be
-    /// wrong by more than the radius.
+    /// The point at distance `t`, projected back onto the sphere.
     #[inline(always)]
     pub fn surface_point(&self, ray: &Ray<T>, t: T) -> SurfacePoint<T> {
-        let normal = (ray.at(t) - self.center).normalize();
+        let place = ray.at(t).real();
+        let (point, normal) =
+            formula::sphere::project(place, self.center.real(), Real(self.radius));
         SurfacePoint {
-            point: self.center + normal * self.radius,
-            normal,
+            point: point.plain(),
+            normal: normal.plain(),
             offset: self.offset,
         }
     }

@@ -2,9 +2,11 @@
 
 use super::{Hit, LightAtHit, Observer, RayKind, Tracer, stage};
 use crate::color::Color;
+use crate::formula::shading::{alignment, power, reflected};
 use crate::light::Light;
 use crate::material::Material;
 use crate::ray::Ray;
+use crate::real::Real;
 use crate::scalar::Scalar;
 use crate::stages::Stages;
 
@@ -78,18 +80,18 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
             }
         }
         let material = hit.material.description();
-        let cosine = toward.times(inverse);
-        // Light first, then material: a factor ≤ 1 keeps the product finite, so that 0·∞ cannot
-        // arise from bright lights on bright materials.
-        let diffuse = light.diffuse * cosine * material.diffuse;
+        let cosine = (Real(toward) * Real(inverse)).0;
+        let diffuse = reflected(light.diffuse, cosine, material.diffuse);
         let mut color = color + diffuse;
         let mut specular = None;
         if stage(NEEDS, Stages::SPECULAR) && !material.specular.is_black() {
-            // R·V with R = 2(N·L)N − L and V = −d.
-            let alignment = cosine
-                .double()
-                .times(hit.cosine)
-                .plus(direction.dot(ray.direction));
+            let alignment = alignment(
+                Real(cosine),
+                Real(hit.cosine),
+                direction.real(),
+                ray.direction.real(),
+            )
+            .0;
             let faint = if self.scene.accel.knows_faint {
                 hit.material.faint_alignment()
             } else {
@@ -97,7 +99,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
             };
             if alignment.upper_half() >= faint && alignment.is_positive() {
                 let highlight = self.phong_power(alignment, hit.material);
-                let light = light.specular * highlight * material.specular;
+                let light = reflected(light.specular, highlight, material.specular);
                 color = color + light;
                 specular = Some(light);
             }
@@ -118,7 +120,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         if stage(NEEDS, Stages::FRACTIONAL_SHININESS) && whole == Material::<T>::FRACTIONAL {
             base.powf(material.description().shininess)
         } else {
-            base.powi(whole)
+            power(Real(base), whole).0
         }
     }
 }
