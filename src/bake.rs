@@ -2,11 +2,11 @@
 
 use core::fmt;
 
+use crate::accel::{BvhNode, Candidates, NodeContent, ObjectSet, PlaneGrid, Slab};
 use crate::color::Color;
 use crate::light::Light;
 use crate::material::Material;
 use crate::scalar::Scalar;
-use crate::accel::{BvhNode, Candidates, NodeContent, ObjectSet, PlaneGrid, Slab};
 use crate::scene::Scene;
 use crate::shape::{Part, Primitive, Surface};
 use crate::vec3::Vec3;
@@ -35,7 +35,12 @@ pub fn bake<'s, T: Scalar>(scene: &'s Scene<'_, T>) -> impl fmt::Display + 's {
 struct Baked<'s, S>(&'s S);
 
 /// A list of things, each on a line of its own, between what comes before and behind it.
-fn list<'s, S>(f: &mut fmt::Formatter<'_>, before: &str, items: &'s [S], behind: &str) -> fmt::Result
+fn list<'s, S>(
+    f: &mut fmt::Formatter<'_>,
+    before: &str,
+    items: &'s [S],
+    behind: &str,
+) -> fmt::Result
 where
     Baked<'s, S>: fmt::Display,
 {
@@ -293,6 +298,10 @@ impl fmt::Display for Baked<'_, u32> {
 
 impl fmt::Display for Baked<'_, ObjectSet> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "::scanray::accel::ObjectSet::from_bits({:#x})", self.0.bits())
+        write!(
+            f,
+            "::scanray::accel::ObjectSet::from_bits({:#x})",
+            self.0.bits()
+        )
     }
 }

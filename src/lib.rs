@@ -142,6 +142,7 @@ mod tracer;
 
 mod render;
 
+pub use accel::ObjectSet;
 pub use background::Background;
 #[cfg(feature = "bake")]
 pub use bake::bake;
@@ -149,12 +150,13 @@ pub use camera::{Camera, Resolution, Subpixel};
 pub use color::Color;
 pub use light::Light;
 pub use material::{Interface, Material, MaterialDescription};
+pub use number::Number;
 #[cfg(feature = "parser")]
 pub use parser::{DecimalError, Excerpt, Expected, Found, FromDecimal, ParseError, Range, Report};
+pub use pools::{Pool, PoolUse, PoolsMut, SceneError, ScenePools};
 #[cfg(feature = "print")]
 pub use print::{PrintError, print};
 pub use ray::{ObjectNumber, Ray, Side};
-pub use number::Number;
 pub use real::Real;
 pub use render::{
     Adaptive, AdaptiveScanline, Budget, CenterSample, DisplayColor, Dithered, Exact, Frame,
@@ -162,8 +164,6 @@ pub use render::{
     ThroughRgb888, differ,
 };
 pub use scalar::Scalar;
-pub use accel::ObjectSet;
-pub use pools::{Pool, PoolUse, PoolsMut, SceneError, ScenePools};
 pub use scene::Scene;
 pub use shape::{Object, Shape};
 pub use stages::Stages;

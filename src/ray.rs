@@ -110,7 +110,10 @@ impl<T: Scalar> Vec3<T> {
             return None;
         }
         let direction = optics::refract(self.real(), normal.real(), Real(cosine), k, Real(eta));
-        if optics::drift(direction).0.is_before(T::EPSILON * T::from_i32(256)) {
+        if optics::drift(direction)
+            .0
+            .is_before(T::EPSILON * T::from_i32(256))
+        {
             Some(optics::renormalize(direction).plain())
         } else {
             // Only an extreme index cancels enough to come here, or even to end on the wrong side.

@@ -454,7 +454,6 @@ impl Scalar for f32 {
             self == 1.0
         }
     }
-
 }
 
 impl Scalar for f64 {

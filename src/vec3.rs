@@ -77,7 +77,6 @@ impl<N: Number> Vec3<N> {
 }
 
 impl<T: Scalar> Vec3<T> {
-
     /// The axis along which a unit vector lies exactly, if arithmetic is emulated: products with 0 and 1 need not be
     /// computed there.
     #[inline(always)]
@@ -158,13 +157,21 @@ impl<T: Scalar> Vec3<T> {
     /// The smaller of two, component by component; that of `self` where they do not compare.
     pub(crate) fn min_by_component(self, other: Self) -> Self {
         let min = |a: T, b: T| if b < a { b } else { a };
-        Self::new(min(self.x, other.x), min(self.y, other.y), min(self.z, other.z))
+        Self::new(
+            min(self.x, other.x),
+            min(self.y, other.y),
+            min(self.z, other.z),
+        )
     }
 
     /// The larger of two, component by component; that of `self` where they do not compare.
     pub(crate) fn max_by_component(self, other: Self) -> Self {
         let max = |a: T, b: T| if b > a { b } else { a };
-        Self::new(max(self.x, other.x), max(self.y, other.y), max(self.z, other.z))
+        Self::new(
+            max(self.x, other.x),
+            max(self.y, other.y),
+            max(self.z, other.z),
+        )
     }
 
     /// All three components are finite.

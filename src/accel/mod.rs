@@ -22,8 +22,8 @@ mod plane_grid;
 mod row;
 mod sides;
 
-pub use bvh::{Bvh, BvhNode, NodeContent};
 pub(crate) use bvh::Walk;
+pub use bvh::{Bvh, BvhNode, NodeContent};
 pub use candidates::{Candidates, Octant};
 pub(crate) use object_set::Members;
 pub use object_set::ObjectSet;
@@ -144,7 +144,11 @@ impl<T: Scalar> AccelMut<'_, T> {
             let _ = self.sides.push(sides::sides(source, object));
         }
         for plane in source.geometry.planes {
-            if self.grids.push(plane_grid::plane_grid(source, plane)).is_err() {
+            if self
+                .grids
+                .push(plane_grid::plane_grid(source, plane))
+                .is_err()
+            {
                 break;
             }
         }

@@ -20,10 +20,12 @@ pub(crate) fn visible_in_row<T: Scalar>(
         half_width,
         scale_squared: T::ONE + row_height * row_height,
     };
-    collect(geometry, |object| match (object, object.bounding_sphere()) {
-        (Object::Plane(plane), _) => row.may_show_plane(plane),
-        (_, Some(ball)) => row.may_show_ball(ball),
-        _ => true,
+    collect(geometry, |object| {
+        match (object, object.bounding_sphere()) {
+            (Object::Plane(plane), _) => row.may_show_plane(plane),
+            (_, Some(ball)) => row.may_show_ball(ball),
+            _ => true,
+        }
     })
 }
 

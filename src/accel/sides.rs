@@ -184,7 +184,11 @@ fn may_shade<T: Scalar>(
 /// The hull lies in the cone of half-angle φ, `sin φ = R/V`, with its tip in the light, at distance `V`
 /// from the ball of radius `R`; for a point at distance `a` along the axis and `h` from it the tangent
 /// plane of the cone is at the distance `h cos φ − (V − a) sin φ`.
-fn lies_beside_light<T: Scalar>(from: BoundingSphere<T>, light: Vec3<T>, other: BoundingSphere<T>) -> bool {
+fn lies_beside_light<T: Scalar>(
+    from: BoundingSphere<T>,
+    light: Vec3<T>,
+    other: BoundingSphere<T>,
+) -> bool {
     let to_light = light - from.center;
     let to_other = other.center - from.center;
     let light_distance = to_light.dot(to_light).sqrt();

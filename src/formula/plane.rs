@@ -6,12 +6,7 @@ use crate::vec3::Vec3;
 /// How far below the plane a ray starts, along the normal, and how much it rises on its way: it crosses the plane at the
 /// quotient.
 #[inline(always)]
-pub fn rise<N: Number>(
-    normal: Vec3<N>,
-    height: N,
-    origin: Vec3<N>,
-    direction: Vec3<N>,
-) -> (N, N) {
+pub fn rise<N: Number>(normal: Vec3<N>, height: N, origin: Vec3<N>, direction: Vec3<N>) -> (N, N) {
     let below = height - origin.along(normal);
     (below, direction.along(normal))
 }

@@ -15,12 +15,7 @@ pub fn reflected<N: Number>(light: Color<N>, factor: N, share: Color<N>) -> Colo
 
 /// `R·V` of the mirrored light `R = 2(N·L)N − L` and the view `V = −direction`: `cosine` is N·L, `hit_cosine` N·V.
 #[inline(always)]
-pub fn alignment<N: Number>(
-    cosine: N,
-    hit_cosine: N,
-    to_light: Vec3<N>,
-    direction: Vec3<N>,
-) -> N {
+pub fn alignment<N: Number>(cosine: N, hit_cosine: N, to_light: Vec3<N>, direction: Vec3<N>) -> N {
     cosine.double() * hit_cosine + to_light.dot(direction)
 }
 

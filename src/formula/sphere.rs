@@ -22,11 +22,7 @@ pub fn chord<N: Number>(
 
 /// The distance along a ray to where its line comes closest to a point, and the square of how close.
 #[inline(always)]
-pub fn closest_approach<N: Number>(
-    point: Vec3<N>,
-    origin: Vec3<N>,
-    direction: Vec3<N>,
-) -> (N, N) {
+pub fn closest_approach<N: Number>(point: Vec3<N>, origin: Vec3<N>, direction: Vec3<N>) -> (N, N) {
     let f = point - origin;
     let b = f.dot(direction);
     let l = f - direction * b;

@@ -59,22 +59,17 @@ impl<N: Number> Shear<N> {
 }
 
 /// The edge function `p × q` in the plane across the ray. It has the right sign unless it is 0: the difference of two
-/// rounded products has it, because rounding is monotonic.
+/// rounded products has it, because rounding is monotonic. Where they are equal, what rounding took from them remains: the
+/// difference of [`product_error`] of `p.x, q.y` and of `p.y, q.x`.
 #[inline(always)]
 pub fn edge<N: Number>(p: Vec3<N>, q: Vec3<N>) -> N {
     p.x * q.y - p.y * q.x
 }
 
-/// [`edge`] where the rounded products are equal: what rounding took from them remains.
-#[inline(always)]
-pub fn exact_edge<N: Number>(p: Vec3<N>, q: Vec3<N>) -> N {
-    product_error(p.x, q.y) - product_error(p.y, q.x)
-}
-
 /// `a·b − round(a·b)`, exactly, barring underflow. Dekker, "A floating-point technique for extending
 /// the available precision", Numerische Mathematik 18, 1971.
 #[inline(always)]
-fn product_error<N: Number>(a: N, b: N) -> N {
+pub fn product_error<N: Number>(a: N, b: N) -> N {
     let product = a * b;
     let (a_high, a_low) = split(a);
     let (b_high, b_low) = split(b);

@@ -8,8 +8,8 @@ mod numeric;
 pub use decimal::{DecimalError, FromDecimal};
 pub use error::{Excerpt, Expected, Found, ParseError, Range};
 
-use crate::scalar::Scalar;
 use crate::pools::{Declared, PoolsMut, ScenePools};
+use crate::scalar::Scalar;
 
 /// What is worth knowing about a scene that was accepted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

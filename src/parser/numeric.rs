@@ -23,8 +23,8 @@ use crate::camera::{Camera, Resolution};
 use crate::color::Color;
 use crate::light::Light;
 use crate::material::MaterialDescription;
-use crate::scalar::Scalar;
 use crate::pools::{Declared, Pool, PoolsMut, SceneError};
+use crate::scalar::Scalar;
 use crate::shape::ShapeError;
 use crate::vec3::Vec3;
 

@@ -26,9 +26,7 @@ use crate::material::{Material, MaterialDescription};
 use crate::ray::ObjectNumber;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::shape::{
-    Plane, Primitive, Shape, ShapeError, Sphere, Surface, Triangle,
-};
+use crate::shape::{Plane, Primitive, Shape, ShapeError, Sphere, Surface, Triangle};
 use crate::stages::Stages;
 use crate::vec3::Vec3;
 
@@ -167,7 +165,10 @@ impl fmt::Display for SceneError {
                 pool.name()
             ),
             Self::LeftOut { stage } => {
-                write!(f, "the pools are declared without {stage}, which this needs")
+                write!(
+                    f,
+                    "the pools are declared without {stage}, which this needs"
+                )
             }
         }
     }
@@ -288,11 +289,7 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
     /// Pools from their parts, for [`scene_pools!`](crate::scene_pools).
     #[doc(hidden)]
     #[inline(always)]
-    pub fn new(
-        settings: &'p mut Settings<T>,
-        lent: Lent<'p, T>,
-        accel: AccelMut<'p, T>,
-    ) -> Self {
+    pub fn new(settings: &'p mut Settings<T>, lent: Lent<'p, T>, accel: AccelMut<'p, T>) -> Self {
         Self {
             settings,
             lent,
@@ -505,11 +502,7 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
     /// # Errors
     ///
     /// As of [`PoolsMut::set`].
-    pub fn set_triangle(
-        &mut self,
-        index: usize,
-        vertices: [Vec3<T>; 3],
-    ) -> Result<(), SceneError> {
+    pub fn set_triangle(&mut self, index: usize, vertices: [Vec3<T>; 3]) -> Result<(), SceneError> {
         self.set_made(index, |surface| Triangle::new(vertices, surface))
     }
 

@@ -234,7 +234,12 @@ impl<T: Scalar, const SIDES: usize, const GRIDS: usize, const BVH: usize> Defaul
 const SHAPES: [(&str, Stages, Stages, bool); 3] = [
     ("spheres", Stages::SPHERES, Stages::SEVERAL_SPHERES, true),
     ("planes", Stages::PLANES, Stages::SEVERAL_PLANES, false),
-    ("triangles", Stages::TRIANGLES, Stages::SEVERAL_TRIANGLES, true),
+    (
+        "triangles",
+        Stages::TRIANGLES,
+        Stages::SEVERAL_TRIANGLES,
+        true,
+    ),
 ];
 
 /// What the word of a pool is declared with; 0 if it is not.

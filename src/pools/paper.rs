@@ -2,9 +2,7 @@
 
 use heapless::Vec;
 
-use super::{
-    AccelPools, Declared, Lent, Pool, PoolUse, PoolsMut, Settings, stages_of_pools,
-};
+use super::{AccelPools, Declared, Lent, Pool, PoolUse, PoolsMut, Settings, stages_of_pools};
 use crate::light::Light;
 use crate::material::Material;
 use crate::scalar::Scalar;

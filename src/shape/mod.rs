@@ -232,7 +232,6 @@ impl<T: Scalar> Object<'_, T> {
     }
 }
 
-
 /// What belongs to an object besides its geometry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Surface {

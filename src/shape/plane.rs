@@ -1,7 +1,8 @@
 //! Infinite planes.
 
 use super::{
-    Barycentric, BoundingSphere, Geometry, Kind, Object, Primitive, Shape, ShapeError, Surface, SurfacePoint,
+    Barycentric, BoundingSphere, Geometry, Kind, Object, Primitive, Shape, ShapeError, Surface,
+    SurfacePoint,
 };
 use crate::formula;
 use crate::ray::Ray;

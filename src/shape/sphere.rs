@@ -2,7 +2,8 @@
 
 use super::coarse::Sighting;
 use super::{
-    Barycentric, BoundingSphere, Geometry, Kind, Object, Primitive, Shape, ShapeError, Surface, SurfacePoint,
+    Barycentric, BoundingSphere, Geometry, Kind, Object, Primitive, Shape, ShapeError, Surface,
+    SurfacePoint,
 };
 use crate::formula::{self, origin_offset};
 use crate::ray::Ray;

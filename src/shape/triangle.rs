@@ -2,9 +2,10 @@
 
 use super::coarse::Sighting;
 use super::{
-    BoundingSphere, Geometry, Kind, Object, Primitive, Shape, ShapeError, Surface, SurfacePoint, extent,
+    BoundingSphere, Geometry, Kind, Object, Primitive, Shape, ShapeError, Surface, SurfacePoint,
+    extent,
 };
-use crate::formula::triangle::{Shear, edge, exact_edge, interpolate, point, reach, slack};
+use crate::formula::triangle::{Shear, edge, interpolate, point, product_error, reach, slack};
 use crate::formula::{origin_offset, sphere::closest_approach};
 use crate::ray::Ray;
 use crate::real::Real;
@@ -158,7 +159,9 @@ impl<T: Scalar> Triangle<T> {
             ray.origin.real(),
             ray.direction.real(),
         );
-        across.0.is_up_to(reach(Real(self.ball_radius_squared), b).0)
+        across
+            .0
+            .is_up_to(reach(Real(self.ball_radius_squared), b).0)
     }
 
     /// Distance and place of the crossing within `0 < t ≤ t_max`.
@@ -195,12 +198,11 @@ impl<T: Scalar> Triangle<T> {
         let (a, b, c) = (sheared(v1), sheared(v2), sheared(v3));
         let (u, v, w) = (signed_edge(c, b), signed_edge(a, c), signed_edge(b, a));
         // Inside: no two edge functions of opposite sign.
-        let inside = (u.0.is_zero_or_positive()
-            && v.0.is_zero_or_positive()
-            && w.0.is_zero_or_positive())
-            || (u.0.is_zero_or_negative()
-                && v.0.is_zero_or_negative()
-                && w.0.is_zero_or_negative());
+        let inside =
+            (u.0.is_zero_or_positive() && v.0.is_zero_or_positive() && w.0.is_zero_or_positive())
+                || (u.0.is_zero_or_negative()
+                    && v.0.is_zero_or_negative()
+                    && w.0.is_zero_or_negative());
         let determinant = u + v + w;
         if !inside || determinant.0.is_zero() {
             return None;
@@ -344,15 +346,27 @@ impl Turn {
 /// The edge function with the right sign.
 #[inline(always)]
 fn signed_edge<T: Scalar>(p: Vec3<Real<T>>, q: Vec3<Real<T>>) -> Real<T> {
-    /// Hardly ever called, so that it is not inlined thrice.
+    // Hardly ever called, so that it is not inlined. Numbers are passed in registers. Where floats are emulated the compiler's
+    // operators are smaller than this crate's, and so is one error less inlined.
     #[cold]
     #[inline(never)]
-    fn rarely<T: Scalar>(p: Vec3<Real<T>>, q: Vec3<Real<T>>) -> Real<T> {
-        // With the compiler's operators, which are smaller than this crate's where floats are emulated.
-        Real(exact_edge(p.plain(), q.plain()))
+    fn exact<T: Scalar>(px: T, qy: T, py: T, qx: T) -> T {
+        if T::EMULATED {
+            error(px, qy) - error(py, qx)
+        } else {
+            product_error(px, qy) - product_error(py, qx)
+        }
+    }
+    #[inline(never)]
+    fn error<T: Scalar>(a: T, b: T) -> T {
+        product_error(a, b)
     }
     let edge = edge(p, q);
-    if edge.0.is_zero() { rarely(p, q) } else { edge }
+    if edge.0.is_zero() {
+        Real(exact(p.x.0, q.y.0, p.y.0, q.x.0))
+    } else {
+        edge
+    }
 }
 
 /// A small ball that holds three points: around the middle of the longest edge or around the

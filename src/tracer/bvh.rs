@@ -104,9 +104,11 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         }
         let first = self.scene.geometry.spheres.len();
         stage(NEEDS, Stages::PLANES)
-            && (first..).zip(self.scene.geometry.planes).any(|(index, plane)| {
-                observer.test_object(plane.object(), ray, t_max);
-                self.is_occluded_by(index, plane, ray, t_max)
-            })
+            && (first..)
+                .zip(self.scene.geometry.planes)
+                .any(|(index, plane)| {
+                    observer.test_object(plane.object(), ray, t_max);
+                    self.is_occluded_by(index, plane, ray, t_max)
+                })
     }
 }

@@ -1,25 +1,26 @@
 //! The tracer: from a ray to a linear colour.
 
+mod bvh;
 mod cutoff;
 mod observer;
 mod shade;
 mod stack;
-mod bvh;
 
 pub use observer::{LightAtHit, Meeting, Observer, RayCount, RayKind, TestKind, WorkCount};
 
 use core::fmt;
 
+use crate::accel::{Candidates, Cell, Members, ObjectSet, visible_in_row};
 use crate::background::Background;
 use crate::camera::{Resolution, Subpixel};
 use crate::color::Color;
 use crate::material::{Interface, Material};
-use crate::accel::{Candidates, Cell, Members, ObjectSet, visible_in_row};
 use crate::ray::{Ray, Side};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::shape::{
-    Barycentric, Kind, Object, Plane, Primitive, Sphere, Surface, SurfacePoint, Triangle, for_each_shape,
+    Barycentric, Kind, Object, Plane, Primitive, Sphere, Surface, SurfacePoint, Triangle,
+    for_each_shape,
 };
 use crate::stages::Stages;
 use crate::vec3::Vec3;
@@ -432,9 +433,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     /// Those that are told apart are not among the candidates.
     #[inline(always)]
     pub(super) fn is_left<P: Primitive<T>>(&self, ray: &Ray<T>, index: usize) -> bool {
-        P::IS_FLAT
-            && stage(NEEDS, Stages::MANY_OBJECTS)
-            && ray.leaves.object() as usize == index
+        P::IS_FLAT && stage(NEEDS, Stages::MANY_OBJECTS) && ray.leaves.object() as usize == index
     }
 
     /// Candidates without the object that the ray leaves, if it is flat.
@@ -728,7 +727,8 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     #[inline(always)]
     fn background(&self, direction: Vec3<T>) -> Color<T> {
         let background = &self.scene.background;
-        if stage(NEEDS, Stages::SKY) && (!stage(NEEDS, Stages::PLAIN_BACKGROUND) || background.sky) {
+        if stage(NEEDS, Stages::SKY) && (!stage(NEEDS, Stages::PLAIN_BACKGROUND) || background.sky)
+        {
             Background::sky(direction)
         } else {
             background.color.clamp()

@@ -66,11 +66,7 @@ impl<'a, T: Scalar> Walk<'a, T> {
 
     /// The next leaf with objects that the ray may meet at `t ≤ t_max`. `tested` is told of every box.
     #[inline]
-    pub(crate) fn next_leaf(
-        &mut self,
-        t_max: T,
-        mut tested: impl FnMut(),
-    ) -> Option<&'a [u32]> {
+    pub(crate) fn next_leaf(&mut self, t_max: T, mut tested: impl FnMut()) -> Option<&'a [u32]> {
         loop {
             let node = self.tree.nodes.get(self.nodes.pop()? as usize)?;
             tested();

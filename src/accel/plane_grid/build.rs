@@ -19,7 +19,10 @@ fn widening<T: Scalar>() -> T {
 }
 
 /// The grid of a plane.
-pub(in crate::accel) fn plane_grid<T: Scalar>(scene: &Source<'_, T>, plane: &Plane<T>) -> PlaneGrid<T> {
+pub(in crate::accel) fn plane_grid<T: Scalar>(
+    scene: &Source<'_, T>,
+    plane: &Plane<T>,
+) -> PlaneGrid<T> {
     let Some(part) = Part::of(scene, plane) else {
         return PlaneGrid::ALL;
     };
@@ -132,7 +135,11 @@ impl<'p, T: Scalar> Part<'p, T> {
 
     /// The objects with a ball, whose radius a margin is added to, for which something holds, and those
     /// without one.
-    fn collect(&self, scene: &Source<'_, T>, holds: impl Fn(&BoundingSphere<T>, T) -> bool) -> ObjectSet {
+    fn collect(
+        &self,
+        scene: &Source<'_, T>,
+        holds: impl Fn(&BoundingSphere<T>, T) -> bool,
+    ) -> ObjectSet {
         collect(&scene.geometry, |object| {
             object.bounding_sphere().is_none_or(|ball| {
                 let margin = margin(self.size + size(ball.center), ball.radius);
