@@ -2,16 +2,14 @@
 //! controller, and every pixel is the picture's own.
 
 mod bus;
-#[path = "../common/mod.rs"]
-mod common;
 mod mipi;
 mod ssd1306;
 
 use std::fmt::Debug;
 
+use crate::common::{picture::Rgb, scenes};
 use ::ssd1306::mode::DisplayConfig;
 use ::ssd1306::{I2CDisplayInterface, Ssd1306, prelude::*};
-use common::{picture::Rgb, scenes};
 use embedded_graphics::pixelcolor::raw::RawU16;
 use embedded_graphics::pixelcolor::{BinaryColor, Rgb565, Rgb888, RgbColor};
 use embedded_graphics::prelude::*;
@@ -21,7 +19,7 @@ use mipidsi::models::{ILI9341Rgb565, Model, ST7789};
 use mipidsi::options::{Orientation, Rotation};
 use scanray::{Budget, Frame, Picture, Progress, Resolution, Tracer};
 
-use bus::{DisplayOnI2c, NoDelay, Spi};
+use self::bus::{DisplayOnI2c, NoDelay, Spi};
 
 /// A panel: the part of the controller's memory that it shows, and how far it is turned clockwise.
 #[derive(Clone, Copy, Debug)]

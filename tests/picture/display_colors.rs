@@ -1,8 +1,6 @@
 //! From linear colour to the colours of displays: one rounding, straight to the display's levels, and
 //! dither by position.
 
-mod common;
-
 use std::fmt::Debug;
 
 use embedded_graphics::pixelcolor::{
@@ -14,7 +12,8 @@ use scanray::{
     ThroughRgb888,
 };
 
-use common::random::Random;
+use crate::common::random::Random;
+use crate::common::sampling;
 
 /// Steps of the ramp: its products with up to 255 levels are exact in f32, so that no rounding of the
 /// crate's own arithmetic excuses a wrong level.
@@ -228,7 +227,7 @@ fn colors_of_other_crates_come_through_rgb888() {
     for x in 0..4_096 {
         let expected = Ink::from(bytes.pixel(x, 7));
         assert_eq!(picture.pixel(x, 7), expected);
-        let levels = common::sampling::levels(ramp(x));
+        let levels = sampling::levels(ramp(x));
         assert_eq!(
             expected,
             Rgb888::new(levels[0], levels[1], levels[2]).into()

@@ -1,10 +1,8 @@
 //! The tree of a large scene gives the hits and shadows of brute force, to the bit: in crowds of any scale,
 //! with ties, coincident and degenerate objects, for rays that only just meet what they are aimed at.
 
-mod common;
-
-use common::random::Random;
-use common::sampling::bits;
+use crate::common::random::Random;
+use crate::common::sampling::bits;
 use scanray::{
     Camera, Color, Light, MaterialDescription, Ray, Resolution, Scalar, Scene, ScenePools, Side,
     Tracer, Tree, Vec3,

@@ -1,9 +1,7 @@
 //! Properties of the scene parser: what is written in any accepted way is what is stored; what is cut off,
 //! damaged or garbage is refused at a place of the text, without a panic.
 
-mod common;
-
-use common::scenes::{self, RoomyPools};
+use crate::common::scenes::{self, RoomyPools};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use scanray::{

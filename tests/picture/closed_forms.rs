@@ -1,9 +1,7 @@
 //! Pictures that can be computed by hand: one lit plane, one lit sphere, the sky.
 
-mod common;
-
-use common::sampling::{bits, channels};
-use common::scenes::{Model, Part, Shape};
+use crate::common::sampling::{bits, channels};
+use crate::common::scenes::{Model, Part, Shape};
 use scanray::{
     Background, Color, DepthError, Light, MaterialDescription, Ray, Resolution, Scalar, Tracer,
     Vec3,

@@ -1,10 +1,8 @@
 //! The three shapes, in random positions over many decades: what is hit lies on the shape and on the ray,
 //! what is missed is missed, and the question in another form has the same answer.
 
-mod common;
-
-use common::random::Random;
-use common::scenes::RoomyPools;
+use crate::common::random::Random;
+use crate::common::scenes::RoomyPools;
 use scanray::shape::{Plane, Sphere, Surface, Triangle};
 use scanray::{MaterialDescription, Object, Ray, Scalar, Side, Tracer, Vec3};
 

@@ -1,10 +1,8 @@
 //! Several samples a pixel: the pattern, edges alone, and the same bits whatever the schedule.
 
-mod common;
-
-use common::random::Random;
-use common::sampling::{bits, channels, ray_beside};
-use common::scenes::{load, names};
+use crate::common::random::Random;
+use crate::common::sampling::{bits, channels, ray_beside};
+use crate::common::scenes::{load, names};
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
 use embedded_graphics::primitives::PointsIter;
 use scanray::{

@@ -1,17 +1,15 @@
 //! Golden pictures: every scene of scenes/ at 160×120, and the default scene in the colours of small
-//! displays, compared byte for byte. `BLESS=1 cargo test --test golden` accepts new pictures.
-
-mod common;
+//! displays, compared byte for byte. `BLESS=1 cargo test --test picture golden` accepts new pictures.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use common::picture::Rgb;
-use common::{is_blessing, scenes};
+use crate::common::picture::Rgb;
+use crate::common::{is_blessing, scenes};
 use embedded_graphics::pixelcolor::{BinaryColor, Gray4, Rgb565, Rgb888, RgbColor};
 use scanray::{Picture, PixelSource, Quantizer, Resolution, Tracer};
 
-const COMMAND: &str = "BLESS=1 cargo test --test golden";
+const COMMAND: &str = "BLESS=1 cargo test --test picture golden";
 
 const SCENE_SIZE: Resolution = Resolution {
     width: 160,

@@ -1,14 +1,12 @@
 //! Every rejection of the scene text: each file of scenes/invalid/ with the message beside it, full pools,
 //! and each field with each number that is none. A rejected text leaves the pools empty.
 //!
-//! `BLESS=1 cargo test --test parser_rejections` rewrites the messages; read them before they are
+//! `BLESS=1 cargo test --test scene parser_rejections` rewrites the messages; read them before they are
 //! committed.
-
-mod common;
 
 use std::path::PathBuf;
 
-use common::{is_blessing, scenes};
+use crate::common::{is_blessing, scenes};
 use scanray::{Background, Color, Expected, Found, ParseError, Pool, Resolution, ScenePools, Vec3};
 
 /// Parses a text into pools that hold another scene; the error, after which the pools must be empty.
@@ -131,7 +129,7 @@ fn every_invalid_scene_has_its_message() {
     }
     assert!(
         failures.is_empty(),
-        "\n{}\nIf the messages are right, accept them with\n    BLESS=1 cargo test --test parser_rejections\n",
+        "\n{}\nIf the messages are right, accept them with\n    BLESS=1 cargo test --test scene parser_rejections\n",
         failures.join("\n")
     );
     assert!(count > 100, "only {count} files in scenes/invalid/");

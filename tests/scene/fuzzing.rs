@@ -1,12 +1,11 @@
 //! The fuzz targets' properties on a stable compiler: seeded mutations of the scenes, good and bad. What
 //! coverage guides, tests/fuzz does.
 
-mod common;
-#[path = "fuzz/properties.rs"]
+#[path = "../fuzz/properties.rs"]
 mod properties;
 
-use common::random::Random;
-use common::scenes;
+use crate::common::random::Random;
+use crate::common::scenes;
 
 /// Words that take the place of others.
 fn dictionary() -> Vec<Vec<u8>> {

@@ -1,10 +1,8 @@
 //! The layers of the core: a file may use the modules above it in src/lib.rs, never those below.
 
-mod common;
-
 use std::path::{Path, PathBuf};
 
-use common::scenes;
+use crate::common::scenes;
 
 /// The modules of src/lib.rs, in its order.
 fn layers(lib: &str) -> Vec<String> {

@@ -2,11 +2,9 @@
 //! touching, resting, nested, coplanar, coincident, around the camera or the light. What is known of
 //! visibility ends with the scene it was found for. (Scenes of scenes/ and crowds: candidates.rs.)
 
-mod common;
-
-use common::random::Random;
-use common::sampling::{self, bits};
-use common::scenes::{self, Model, Part, RoomyPools, Shape};
+use crate::common::random::Random;
+use crate::common::sampling::{self, bits};
+use crate::common::scenes::{self, Model, Part, RoomyPools, Shape};
 use scanray::{
     Background, Color, Light, MaterialDescription, Resolution, Scalar, Scene, ScenePools, Tracer,
     Vec3,

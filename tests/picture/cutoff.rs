@@ -1,10 +1,8 @@
 //! The contribution cut-off keeps its bound, and saves rays.
 
-mod common;
-
-use common::random::Random;
-use common::sampling::{bits, channels};
-use common::scenes::{Model, Part, Shape, load, names};
+use crate::common::random::Random;
+use crate::common::sampling::{bits, channels};
+use crate::common::scenes::{Model, Part, Shape, load, names};
 use embedded_graphics::pixelcolor::{
     Gray2, Gray4, Gray8, GrayColor, Rgb555, Rgb565, Rgb666, Rgb888, RgbColor,
 };

@@ -1,9 +1,7 @@
 //! Bad scenes at scale: every number of the default scene replaced by each of eight others gives a picture
 //! without a channel that is not finite, or an error at the place of that number.
 
-mod common;
-
-use common::scenes;
+use crate::common::scenes;
 use scanray::{FromDecimal, Resolution, Scalar, ScenePools, Tracer};
 
 /// What takes the place of a number: not finite, too large for `f32`, out of most ranges, subnormal in `f32`,

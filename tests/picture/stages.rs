@@ -1,10 +1,8 @@
 //! Stages that a scene does not need can be left out: the picture has the same bits. Stages that it needs
 //! cannot.
 
-mod common;
-
-use common::sampling::bits;
-use common::scenes::load;
+use crate::common::sampling::bits;
+use crate::common::scenes::load;
 use scanray::{MissingStages, Needs, Resolution, ScenePools, Tracer};
 
 const SIZE: Resolution = Resolution {

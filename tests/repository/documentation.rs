@@ -1,8 +1,7 @@
 //! What the documentation shows is what there is: the golden picture of the default scene, code of an example.
 
-mod common;
-
-use common::scenes::path;
+use crate::common::is_blessing;
+use crate::common::scenes::path;
 
 const FILE: &str = "docs/default-scene.md";
 
@@ -13,13 +12,13 @@ fn shows_the_golden_picture() {
         "![The default scene](data:image/png;base64,{})\n",
         base64(&png)
     );
-    if common::is_blessing() {
+    if is_blessing() {
         std::fs::write(path(FILE), expected).unwrap();
         return;
     }
     assert!(
         std::fs::read_to_string(path(FILE)).is_ok_and(|text| text == expected),
-        "{FILE} does not hold tests/golden/default.png: BLESS=1 cargo test --test documentation"
+        "{FILE} does not hold tests/golden/default.png: BLESS=1 cargo test --test repository documentation"
     );
 }
 

@@ -1,8 +1,6 @@
 //! No pixel of any scene casts more rays than promised.
 
-mod common;
-
-use common::scenes;
+use crate::common::scenes;
 use scanray::{ScenePools, Tracer, WorkCount};
 
 #[test]

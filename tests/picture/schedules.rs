@@ -1,13 +1,11 @@
 //! Whatever the schedule (rows, bands, rectangles, instalments, threads, displays that fail), the picture
 //! has the bits of `Picture::pixel`, and every pixel is drawn exactly once.
 
-mod common;
-
 use std::cell::Cell;
 
-use common::canvas::{BusError, Canvas, FailingDisplay};
-use common::random::Random;
-use common::scenes;
+use crate::common::canvas::{BusError, Canvas, FailingDisplay};
+use crate::common::random::Random;
+use crate::common::scenes;
 use embedded_graphics::Drawable;
 use embedded_graphics::draw_target::{DrawTarget, DrawTargetExt};
 use embedded_graphics::geometry::{Dimensions, Point, Size};

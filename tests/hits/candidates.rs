@@ -1,10 +1,8 @@
 //! Leaving out objects that a ray cannot meet changes no bit: scenes with and without candidates.
 
-mod common;
-
-use common::clear_misses::ClearMisses;
-use common::random::Random;
-use common::scenes::{Model, Part, RoomyPools, Shape, load, names};
+use crate::common::clear_misses::ClearMisses;
+use crate::common::random::Random;
+use crate::common::scenes::{Model, Part, RoomyPools, Shape, load, names};
 use scanray::shape::ShapeError;
 use scanray::{
     Background, Camera, Color, FromDecimal, Light, Material, MaterialDescription, ObjectSet,

@@ -1,13 +1,11 @@
 //! Coarse to fine: every pass shows blocks, no pixel is traced twice, and the last one has the bits of the
 //! whole picture, whatever the buffers and budgets.
 
-mod common;
-
 use std::cell::RefCell;
 
-use common::canvas::{BusError, Canvas, FailingDisplay};
-use common::random::Random;
-use common::scenes::load;
+use crate::common::canvas::{BusError, Canvas, FailingDisplay};
+use crate::common::random::Random;
+use crate::common::scenes::load;
 use embedded_graphics::Drawable;
 use embedded_graphics::pixelcolor::{BinaryColor, Rgb888};
 use scanray::{

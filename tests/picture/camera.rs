@@ -1,9 +1,7 @@
 //! The camera against its formula.
 
-mod common;
-
-use common::sampling::View;
-use common::scenes;
+use crate::common::sampling::View;
+use crate::common::scenes;
 use scanray::{Resolution, Scalar, Tracer};
 
 const SIZE: Resolution = Resolution {
