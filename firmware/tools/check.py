@@ -399,7 +399,7 @@ def check_all(builder, report, bless):
     pictures = table(["scene", "x86-64", *columns],
                      [[scene, expected[scene], *(board.crcs.get(scene, "–") for board in boards)] for scene in scenes()])
     print(pictures, end="")
-    # Case 68 of the catalogue in stability/.
+    # Case 68 of `scanray stability`, which compares the host with this table.
     report.check("pictures", lambda: compare("pictures.txt", pictures, bless))
 
     rows = [[row, profile, BOARDS[board.name][1], *board.measured[row, profile].cells()]

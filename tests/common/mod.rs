@@ -1,6 +1,6 @@
 //! What the integration tests share: scenes, pictures, a recording display, random numbers.
 
-// Every test file compiles this module for itself and uses a part of it.
+// Every test program compiles this module for itself and uses a part of it.
 #![allow(dead_code)]
 
 pub(crate) mod canvas;

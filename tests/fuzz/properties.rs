@@ -1,4 +1,4 @@
-//! What holds for every text: the fuzz targets, shared with tests/fuzzing.rs, which tries them on a stable
+//! What holds for every text: the fuzz targets, shared with tests/scene/fuzzing.rs, which tries them on a stable
 //! compiler. Each panics where its property does not hold.
 
 // Each target uses one of them.

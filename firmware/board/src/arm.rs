@@ -31,7 +31,7 @@ pub fn sleep() {
 }
 
 /// The hardware must not flush subnormal numbers to zero, or replace NaNs, or round other than to nearest: the bits would
-/// differ from the other boards'. Ends the emulation if it does. (Case 67 of the catalogue in stability/.)
+/// differ from the other boards'. Ends the emulation if it does. (Case 67 of `scanray stability`.)
 pub fn check_floating_point() {
     #[cfg(target_abi = "eabihf")]
     {

@@ -129,7 +129,7 @@ fn draws_the_scenes_of_the_repository_to_the_bit() {
 }
 
 #[test]
-#[ignore = "takes long without optimisation"]
+#[ignore = "takes long: .ci/run runs it"]
 fn draws_whole_pictures_to_the_bit() {
     for name in SCENES {
         let pools = load(name);

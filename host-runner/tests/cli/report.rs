@@ -160,6 +160,7 @@ fn settings_that_change_nothing_are_not_worth_having() {
 }
 
 #[test]
+#[ignore = "builds and emulates firmware: .ci/run runs it"]
 fn instructions_are_counted_where_there_is_an_emulator() {
     let folder = Folder::new();
     folder.write("a.txt", SMALL_SCENE);

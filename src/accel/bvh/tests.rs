@@ -1,4 +1,4 @@
-//! The shape of the tree; that it leaves out nothing that a ray meets is tested in tests/tree.rs.
+//! The shape of the tree; that it leaves out nothing that a ray meets is tested in tests/hits/tree.rs.
 
 use std::vec::Vec;
 

@@ -1,24 +1,34 @@
 //! Cases 62 to 69: what is read, what the machine does with it, and `f32` against `f64` on every scene.
 
+use std::hint::black_box;
+
+use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
 use rayon::prelude::*;
 use scanray::shape::{Plane, Sphere, Surface, Triangle};
 use scanray::{
-    Color, MaterialDescription, Pool, Ray, Resolution, Scalar, SceneError, ScenePools, Tracer, Vec3,
+    Color, DisplayColor, MaterialDescription, Pool, Ray, Resolution, Scalar, SceneError,
+    ScenePools, Tracer, Vec3,
 };
 
 use super::record::{Counts, Effort, Record, Tier, grey, vector};
 use super::{Case, Group, How};
 use crate::Number;
-use crate::scenes::{self, Model, RoomyPools};
+use crate::scenes::{self, Model, Part, RoomyPools, Shape};
 use crate::settled::{View, settled_through};
 use crate::textbook::Textbook;
 
 macro_rules! case {
     ($number:literal $name:ident: $expected:literal) => {
-        case!($number $name: $expected; How::Measured { single: $name::<f32>, double: $name::<f64> })
+        case!($number $name: $expected; None)
     };
-    ($number:literal $name:ident: $expected:literal; $how:expr) => {
-        Case { number: $number, name: stringify!($name), group: Group::Input, expected: $expected, how: $how }
+    ($number:literal $name:ident: $expected:literal; $on_boards:expr) => {
+        Case {
+            number: $number,
+            name: stringify!($name),
+            group: Group::Input,
+            expected: $expected,
+            how: How { single: $name::<f32>, double: $name::<f64>, on_boards: $on_boards },
+        }
     };
 }
 
@@ -28,10 +38,10 @@ pub(super) const CASES: &[Case] = &[
     case!(64 subnormal_fields: "tier C, or rejected at their place"),
     case!(65 sign_of_zero: "−0.0 and +0.0 give the same picture"),
     case!(66 rays_that_are_no_rays: "NaN is missed by every shape, at once"),
-    case!(67 flush_to_zero: "the unit's flush-to-zero flag is off on the board";
-        How::OnBoards("firmware/board/src/arm.rs, by firmware/test.sh")),
+    case!(67 flush_to_zero: "subnormal numbers are computed with, and on the board the unit's flush-to-zero flag is off";
+        Some("every program starts with firmware/board/src/arm.rs, and one that sets the flag must fail in firmware/test.sh")),
     case!(68 same_picture_on_every_machine: "the same hash on x86-64, Cortex-M0, M3, M4F and RISC-V";
-        How::OnBoards("firmware/tools/check.py, by firmware/test.sh")),
+        Some("firmware/test.sh draws them anew and compares with firmware/tables/pictures.txt")),
     case!(69 single_precision_on_every_scene: "tier A"),
 ];
 
@@ -293,6 +303,127 @@ fn rays_that_are_no_rays<T: Number>(record: &mut Record) {
     }
     record.count("hits of rays with NaN", hits, of);
     record.count("hits at no distance", no_distances, of);
+}
+
+/// What a processor that flushes subnormal numbers to zero would do otherwise.
+fn flush_to_zero<T: Number>(record: &mut Record) {
+    // Not the compiler's arithmetic but the machine's.
+    let machine = black_box::<T>;
+
+    // Halved until nothing is left: as often as the significand has bits.
+    let (mut wrong, mut of, mut x) = (0, 0, T::MIN_POSITIVE);
+    while x != T::MIN_POSITIVE * T::EPSILON && x != T::ZERO {
+        let half = machine(x) * machine(T::HALF);
+        wrong += u64::from(half == T::ZERO || machine(half) + half != x);
+        of += 1;
+        x = half;
+    }
+    let bits = if T::NAME == f32::NAME { 23 } else { 52 };
+    record.holds("the smallest number has the last bit alone", of == bits);
+    record.count("halves that are not exact", wrong, of);
+
+    // The difference of two numbers that are close is exact, unless it is flushed.
+    let random = record.random(67);
+    let (mut wrong, of) = (0, 10_000);
+    for _ in 0..of {
+        let number = || T::MIN_POSITIVE * T::from_f64(random.between(1.0, 2.0));
+        let (a, b) = (number(), number());
+        let difference = machine(a) - machine(b);
+        wrong += u64::from((difference == T::ZERO) != (a == b) || machine(difference) + b != a);
+    }
+    record.count("differences that are not exact", wrong, of);
+
+    // A scene that shines this little, by its objects and behind them.
+    let shine = T::MIN_POSITIVE * T::HALF * T::HALF;
+    let faint = Color::new(shine, shine, shine);
+    let mut model = super::shading::dark::<T>();
+    model.resolution = Resolution {
+        width: 16,
+        height: 12,
+    };
+    model.ambient = T::ONE;
+    model.background.color = faint;
+    model.parts.push(Part {
+        shape: Shape::Sphere {
+            center: vector(0.0, 0.0, 5.0),
+            radius: T::ONE,
+        },
+        material: MaterialDescription {
+            ambient: faint,
+            ..Default::default()
+        },
+    });
+    let pools = model.build();
+    let colors = record.draw(&Tracer::new(pools.as_scene()));
+    let wrong = colors.iter().filter(|color| **color != faint).count();
+    record.count(
+        "pixels of another colour than the scene's",
+        wrong as u64,
+        colors.len() as u64,
+    );
+}
+
+/// The CRC-32 of PNG and zlib: the boards' hash of a picture.
+fn crc_32(bytes: impl IntoIterator<Item = u8>) -> u32 {
+    !bytes.into_iter().fold(!0, |crc, byte| {
+        (0..8).fold(crc ^ u32::from(byte), |crc, _| {
+            (crc >> 1) ^ (0xedb8_8320 & 0_u32.wrapping_sub(crc & 1))
+        })
+    })
+}
+
+fn same_picture_on_every_machine<T: Number>(record: &mut Record) {
+    // What the boards drew: a line for each scene, its name and a column for each machine.
+    let boards = scenes::BOARDS_HASHES;
+    let mut lines = boards.lines().map(str::split_whitespace);
+    let machines: Vec<&str> = lines.next().into_iter().flatten().skip(1).collect();
+    record.holds(
+        "the table has the host and four boards",
+        machines == ["x86-64", "M4F", "M3", "M0", "RISC-V"],
+    );
+    let mut drawn = Vec::new();
+    for mut line in lines {
+        let Some(name) = line.next() else { continue };
+        let Some(text) = scenes::text_on_boards(name) else {
+            record.holds(format!("{name} is a scene"), false);
+            continue;
+        };
+        let mut pools = Box::new(ScenePools::<T>::new());
+        pools.parse(text).expect("a scene of the repository");
+        let tracer = Tracer::new(pools.as_scene()).with_resolution(Resolution {
+            width: 160,
+            height: 120,
+        });
+        let colors = record.draw(&tracer);
+        drawn.push(name);
+        // The boards draw in single precision; in double, a picture is only looked after.
+        if T::NAME == f64::NAME {
+            continue;
+        }
+        let levels = colors.iter().flat_map(|color| {
+            let pixel = Rgb888::from_linear(*color, T::HALF);
+            [pixel.r(), pixel.g(), pixel.b()]
+        });
+        let hash = format!("{:08x}", crc_32(levels));
+        for machine in &machines {
+            let wrong = u64::from(line.next() != Some(&hash));
+            record.count_in(
+                &format!("{name} on {machine}"),
+                "pictures that differ from the boards'",
+                wrong,
+                1,
+            );
+        }
+    }
+    let missing = scenes::names()
+        .iter()
+        .filter(|name| !drawn.contains(&name.as_str()))
+        .count();
+    record.count(
+        "scenes of scenes/ that no board drew",
+        missing as u64,
+        scenes::names().len() as u64,
+    );
 }
 
 fn single_precision_on_every_scene<T: Number>(record: &mut Record) {

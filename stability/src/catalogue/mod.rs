@@ -51,13 +51,11 @@ pub struct Case {
 }
 
 #[derive(Clone, Copy)]
-enum How {
-    Measured {
-        single: fn(&mut Record),
-        double: fn(&mut Record),
-    },
-    /// Checked on the boards by a named check.
-    OnBoards(&'static str),
+struct How {
+    single: fn(&mut Record),
+    double: fn(&mut Record),
+    /// The check by which it is checked on the boards, too.
+    on_boards: Option<&'static str>,
 }
 
 impl std::fmt::Debug for Case {
@@ -113,22 +111,16 @@ impl Case {
         name.iter().enumerate().map(sign).collect()
     }
 
-    /// Where the case is checked if it needs a board and cannot be measured here.
+    /// Where the case is checked on the boards, if what is measured here is half of it.
     pub fn on_boards(&self) -> Option<&'static str> {
-        match self.how {
-            How::Measured { .. } => None,
-            How::OnBoards(check) => Some(check),
-        }
+        self.how.on_boards
     }
 
     /// Measures the case in a scalar. A panic is a finding, too.
     pub fn measure(&self, scalar: ScalarName, effort: Effort) -> Vec<Finding> {
-        let How::Measured { single, double } = self.how else {
-            return Vec::new();
-        };
         let measure = match scalar {
-            ScalarName::F32 => single,
-            ScalarName::F64 => double,
+            ScalarName::F32 => self.how.single,
+            ScalarName::F64 => self.how.double,
         };
         let mut record = Record::new(effort);
         if catch_unwind(AssertUnwindSafe(|| measure(&mut record))).is_err() {
@@ -146,7 +138,7 @@ macro_rules! cases {
             name: stringify!($name),
             group: $crate::catalogue::Group::$group,
             expected: $expected,
-            how: $crate::catalogue::How::Measured { single: $name::<f32>, double: $name::<f64> },
+            how: $crate::catalogue::How { single: $name::<f32>, double: $name::<f64>, on_boards: None },
         }),*];
     };
 }
