@@ -29,7 +29,7 @@ fn rows_of_a_part(width: usize) -> usize {
 
 /// The threads that draw.
 #[derive(Debug)]
-pub(crate) struct Workers(ThreadPool);
+pub struct Workers(ThreadPool);
 
 impl Workers {
     /// As many threads, or one for each core.
@@ -37,7 +37,7 @@ impl Workers {
     /// # Errors
     ///
     /// [`Failure::Usage`] when the system does not give so many.
-    pub(crate) fn new(threads: Option<u16>) -> Result<Self, Failure> {
+    pub fn new(threads: Option<u16>) -> Result<Self, Failure> {
         ThreadPoolBuilder::new()
             .num_threads(threads.map_or(0, usize::from))
             .build()
@@ -46,12 +46,12 @@ impl Workers {
     }
 
     /// How many there are.
-    pub(crate) fn count(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.0.current_num_threads()
     }
 
     /// Lets them do parallel work.
-    pub(crate) fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+    pub fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
         self.0.install(work)
     }
 }
