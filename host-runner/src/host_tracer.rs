@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use scanray::{
-    Color, Needs, Observer, PixelSource, RayCount, Resolution, Scalar, Scanline, Scene, Subpixel,
+    Color, Observer, PixelSource, RayCount, Resolution, Scalar, Scanline, Scene, Stages, Subpixel,
     Tracer, differ,
 };
 
@@ -18,10 +18,10 @@ pub(crate) const MAX_DEPTH: usize = 32;
 
 /// A tracer with every stage but the cut-off.
 pub(crate) type AllStages<'a, T> =
-    Tracer<'a, T, { Needs::ALL.union(Needs::TREE).bits() }, MAX_DEPTH>;
+    Tracer<'a, T, { Stages::ALL.union(Stages::BVH).bits() }, MAX_DEPTH>;
 
 type WithCutoff<'a, T> =
-    Tracer<'a, T, { Needs::ALL.union(Needs::TREE).union(Needs::CUTOFF).bits() }, MAX_DEPTH>;
+    Tracer<'a, T, { Stages::ALL.union(Stages::BVH).union(Stages::CUTOFF).bits() }, MAX_DEPTH>;
 
 /// Traces single rays. It can be watched; [`Drawing::pixels`](crate::drawing::Drawing::pixels) is the
 /// faster way to the same pixels.
@@ -60,7 +60,7 @@ impl<'a, T: Scalar> HostTracer<'a, T> {
         max_depth: usize,
     ) -> Result<Self, Failure> {
         Tracer::new(scene)
-            .with_tree()
+            .with_bvh()
             .with_stack()
             .with_resolution(resolution)
             .with_max_depth(max_depth)

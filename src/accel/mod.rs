@@ -93,9 +93,12 @@ impl<'a, T> Accel<'a, T> {
         self.grids
     }
 
+}
+
+impl<'a, T: Copy> Accel<'a, T> {
     /// The bounding-volume hierarchy of a large scene.
-    pub const fn bvh(&self) -> &Bvh<'a, T> {
-        &self.bvh
+    pub const fn bvh(&self) -> Bvh<'a, T> {
+        self.bvh
     }
 }
 

@@ -119,6 +119,43 @@ pub enum Shape<T = f32> {
     },
 }
 
+/// A rigid motion of a scene.
+pub trait Motion<T: Scalar> {
+    /// Where a point goes.
+    fn point(&self, point: Vec3<T>) -> Vec3<T>;
+
+    /// How a vector is turned.
+    fn vector(&self, vector: Vec3<T>) -> Vec3<T>;
+
+    /// Where the points with `normal·p + distance = 0` go.
+    fn plane(&self, normal: Vec3<T>, distance: T) -> (Vec3<T>, T) {
+        let turned = self.vector(normal);
+        // Where the origin goes tells by how much the plane moves along its normal.
+        let origin = self.point(Vec3::splat(T::ZERO));
+        (turned, distance - turned.dot(origin))
+    }
+}
+
+impl<T: Scalar> Shape<T> {
+    /// The shape somewhere else.
+    #[must_use]
+    pub fn moved(self, motion: &impl Motion<T>) -> Self {
+        match self {
+            Self::Sphere { center, radius } => Self::Sphere {
+                center: motion.point(center),
+                radius,
+            },
+            Self::Plane { normal, distance } => {
+                let (normal, distance) = motion.plane(normal, distance);
+                Self::Plane { normal, distance }
+            }
+            Self::Triangle { vertices } => Self::Triangle {
+                vertices: vertices.map(|vertex| motion.point(vertex)),
+            },
+        }
+    }
+}
+
 impl<T> Shape<T> {
     /// Its kind.
     pub const fn kind(&self) -> Kind {

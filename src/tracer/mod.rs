@@ -155,6 +155,8 @@ pub struct Nearest<'a, T = f32> {
     pub t: T,
     /// What is there.
     pub object: Object<'a, T>,
+    /// The object's index among all objects.
+    pub index: usize,
 }
 
 /// The closest meeting so far.
@@ -300,6 +302,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         Some(Nearest {
             t: closest.t,
             object: self.scene.object(closest.index)?,
+            index: closest.index,
         })
     }
 
@@ -684,6 +687,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         };
         observer.meeting(&Meeting {
             side: hit.facing,
+            number: surface.number,
             t: closest.t,
             point: point.point,
             normal,

@@ -164,11 +164,11 @@ impl<T: Scalar> Model<T> {
             })
             .collect();
         Self {
-            camera: scene.camera.position,
-            resolution: scene.resolution,
-            ambient: scene.ambient,
-            background: scene.background,
-            lights: scene.lights.to_vec(),
+            camera: scene.camera().position,
+            resolution: scene.resolution(),
+            ambient: scene.ambient(),
+            background: scene.background(),
+            lights: scene.lights().to_vec(),
             parts,
         }
     }

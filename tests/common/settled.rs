@@ -18,7 +18,7 @@ impl<T: Scalar> View<T> {
     /// The crate's camera of a tracer.
     pub fn of<const NEEDS: u32, const STACK: usize>(tracer: &Tracer<'_, T, NEEDS, STACK>) -> Self {
         Self {
-            position: tracer.scene().camera.position,
+            position: tracer.scene().camera().position,
             size: tracer.resolution(),
             half_height: 1.0,
         }

@@ -105,10 +105,10 @@ fn scenes_of_the_repository<T: Scalar + FromDecimal>() {
             // Of 48 directions and ways of each plane, one of four excludes one object at least.
             let by_zones = excluded_by_zones(scene);
             println!("{name}: {by_zones} pairs excluded by zones");
-            assert!(by_zones >= 12 * scene.planes.len(), "{name}: {by_zones}");
+            assert!(by_zones >= 12 * scene.planes().len(), "{name}: {by_zones}");
         }
         let with_faint = |material: &Material<T>| material.faint_alignment() > 0;
-        let faint = scene.materials.iter().copied().filter(with_faint).count();
+        let faint = scene.materials().iter().copied().filter(with_faint).count();
         println!("{name}: {faint} materials with faint highlights");
         assert!(faint > 0, "{name}: no highlight is faint");
     }
@@ -238,7 +238,7 @@ fn crowded_scenes<T: Scalar>(default_seed: u64, scenes: usize) {
         let model = crowded::<T>(&random, offset * scale, scale);
         let mut pools = RoomyPools::new();
         fill(&mut pools.as_mut(), &model);
-        assert!(!pools.as_scene().sides.is_empty());
+        assert!(!pools.as_scene().accel().sides().is_empty());
         let resolution = Resolution {
             width: 24,
             height: 18,
@@ -287,7 +287,7 @@ fn objects_beyond_the_bits_of_a_set_are_candidates() {
             height: 12,
         };
         let scene = pools.as_scene();
-        assert!(scene.spheres.len().max(scene.triangles.len()) > ObjectSet::TOLD_APART);
+        assert!(scene.spheres().len().max(scene.triangles().len()) > ObjectSet::TOLD_APART);
         compare(scene, resolution, || "a large scene".into());
     }
 }

@@ -13,10 +13,13 @@ use scanray::{
 /// Compares the picture of prepared pools with that of pools which know nothing of visibility.
 fn compare<T: Scalar>(model: &Model<T>, size: Resolution, how: &dyn std::fmt::Display) {
     let plain = model.build();
-    assert!(plain.as_scene().sides.is_empty());
+    assert!(plain.as_scene().accel().sides().is_empty());
     let mut prepared = model.build();
     prepared.prepare();
-    assert_eq!(prepared.as_scene().sides.len(), 2 * model.parts.len());
+    assert_eq!(
+        prepared.as_scene().accel().sides().len(),
+        2 * model.parts.len()
+    );
     let plain = Tracer::new(plain.as_scene()).with_resolution(size);
     let prepared = Tracer::new(prepared.as_scene()).with_resolution(size);
     for y in 0..size.height {
@@ -330,16 +333,28 @@ fn a_change_of_the_scene_forgets_what_was_visible() {
         let mut pools: RoomyPools<f32> = model.build();
         pools.prepare();
         part.add_to(&mut pools.as_mut()).unwrap();
-        assert!(pools.as_scene().sides.is_empty(), "scene {round}, object");
+        assert!(
+            pools.as_scene().accel().sides().is_empty(),
+            "scene {round}, object"
+        );
         model.parts.push(part);
         pools.prepare();
-        assert_eq!(pools.as_scene().sides.len(), 2 * model.parts.len());
+        assert_eq!(
+            pools.as_scene().accel().sides().len(),
+            2 * model.parts.len()
+        );
         if model.lights.len() < 4 {
             pools.as_mut().add_light(light).unwrap();
-            assert!(pools.as_scene().sides.is_empty(), "scene {round}, light");
+            assert!(
+                pools.as_scene().accel().sides().is_empty(),
+                "scene {round}, light"
+            );
         }
         pools.as_mut().clear();
-        assert!(pools.as_scene().sides.is_empty(), "scene {round}, clear");
+        assert!(
+            pools.as_scene().accel().sides().is_empty(),
+            "scene {round}, clear"
+        );
     }
 }
 
@@ -381,7 +396,7 @@ fn too_many_objects_are_drawn_all_the_same() {
     filling.set_background(model.background);
     filling.add_light(model.lights[0]).unwrap();
     small.prepare();
-    assert!(small.as_scene().sides.is_empty());
+    assert!(small.as_scene().accel().sides().is_empty());
     let roomy = model.build();
     let small = Tracer::new(small.as_scene()).with_resolution(size);
     let roomy = Tracer::new(roomy.as_scene()).with_resolution(size);
@@ -399,7 +414,7 @@ fn an_object_that_is_refused_changes_nothing() {
     let mut pools: ScenePools = scenes::load("default");
     let before = (
         pools.as_scene().object_count(),
-        pools.as_scene().sides.len(),
+        pools.as_scene().accel().sides().len(),
     );
     assert!(before.1 > 0);
     let mut filling = pools.as_mut();
@@ -412,7 +427,7 @@ fn an_object_that_is_refused_changes_nothing() {
             .is_err()
     );
     let scene = pools.as_scene();
-    assert_eq!((scene.object_count(), scene.sides.len()), before);
+    assert_eq!((scene.object_count(), scene.accel().sides().len()), before);
 }
 
 /// Draws texts with what is known of visibility and without.

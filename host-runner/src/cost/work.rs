@@ -156,12 +156,12 @@ impl Circumstances {
         Self {
             scanlines,
             objects: [
-                scene.spheres.len() as u64,
-                scene.planes.len() as u64,
-                scene.triangles.len() as u64,
+                scene.spheres().len() as u64,
+                scene.planes().len() as u64,
+                scene.triangles().len() as u64,
             ],
-            has_sky: scene.background.sky,
-            has_branches: scene.materials.iter().any(|material| {
+            has_sky: scene.background().sky,
+            has_branches: scene.materials().iter().any(|material| {
                 let of = material.description();
                 of.reflection > T::ZERO || of.refraction > T::ZERO
             }),
@@ -344,6 +344,8 @@ impl<T: Scalar> Observer<T> for Counter<T> {
                 let t = triangle.intersect(ray, t_max).map(|(t, _)| t);
                 (Shape::Triangle, t)
             }
+            // The model knows no others.
+            _ => return,
         };
         if let Some(t) = t
             && self.closest.is_none_or(|(closest, _)| t <= closest)

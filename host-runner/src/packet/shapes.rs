@@ -2,7 +2,7 @@
 
 use fearless_simd::prelude::*;
 use scanray::shape::{Plane, Triangle};
-use scanray::{Scalar, Vec3};
+use scanray::Vec3;
 
 use super::lanes::{Mask, Numbers, Rays, Vec3s};
 
@@ -199,7 +199,7 @@ fn product_error<S: Simd>(a: Numbers<S>, b: Numbers<S>) -> Numbers<S> {
 
 #[inline(always)]
 fn split<S: Simd>(x: Numbers<S>) -> (Numbers<S>, Numbers<S>) {
-    let scaled = x * f32::SPLITTER;
+    let scaled = x * <f32 as scanray::Number>::SPLIT as f32;
     let high = scaled - (scaled - x);
     (high, x - high)
 }

@@ -61,7 +61,7 @@ pub(super) fn assert_same_as(
 ) {
     let [tracer, core] = [scene, of_core].map(|scene| {
         Tracer::new(scene)
-            .with_tree()
+            .with_bvh()
             .with_stack::<STACK>()
             .with_resolution(resolution)
             .with_max_depth(max_depth)
@@ -142,7 +142,7 @@ fn draws_whole_pictures_to_the_bit() {
 fn draws_parts_of_rows() {
     let pools = load("default");
     let tracer = Tracer::new(pools.as_scene())
-        .with_tree()
+        .with_bvh()
         .with_stack::<STACK>();
     let packets = PacketTracer::new(tracer);
     let mut part = [Color::default(); 13];
@@ -157,7 +157,7 @@ fn draws_parts_of_rows() {
 fn draws_places_beside_the_centres_of_some_columns() {
     let pools = load("default");
     let tracer = Tracer::new(pools.as_scene())
-        .with_tree()
+        .with_bvh()
         .with_stack::<STACK>()
         .with_resolution(Resolution {
             width: 61,
@@ -185,7 +185,7 @@ fn draws_places_beside_the_centres_of_some_columns() {
 fn draws_a_picture_from_several_threads() {
     let pools = load("reflective");
     let tracer = Tracer::new(pools.as_scene())
-        .with_tree()
+        .with_bvh()
         .with_stack::<STACK>()
         .with_resolution(Resolution {
             width: 64,
@@ -242,7 +242,7 @@ fn draws_random_scenes_with_a_tree_to_the_bit() {
         random.fill(&mut pools);
         random.crowd(&mut pools);
         pools.prepare();
-        trees += u64::from(pools.as_scene().tree.is_some());
+        trees += u64::from(pools.as_scene().accel().bvh().is_some());
         let (width, height) = (1 + random.below(40), 1 + random.below(9));
         let max_depth = random.pick(&[0, 1, 3]);
         let name = format!("random crowd of seed {seed}");

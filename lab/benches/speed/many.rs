@@ -90,7 +90,7 @@ fn gain(scene: Scene<'_>) -> f64 {
         ..scene
     };
     let time = |scene, repeats: u32| {
-        let tracer = Tracer::new(scene).with_tree().with_resolution(SIZE);
+        let tracer = Tracer::new(scene).with_bvh().with_resolution(SIZE);
         let start = ProcessTime::now();
         for _ in 0..repeats {
             for y in (50..600).step_by(100) {

@@ -104,9 +104,9 @@ fn tachyon_scene(scene: &Scene<'_>) -> String {
     // The height of the view at distance 1 is 2; the ray from the camera is a level too.
     write(format_args!(
         "ZOOM 0.5\nASPECTRATIO 1.0\nANTIALIASING 0\nRAYDEPTH 6\nCENTER {}\nVIEWDIR 0 0 1\nUPDIR 0 1 0\nEND_CAMERA",
-        vector(scene.camera.position)
+        vector(scene.camera().position)
     ));
-    for light in scene.lights {
+    for light in scene.lights() {
         write(format_args!(
             "LIGHT CENTER {} RAD 0.01 COLOR {} {} {}",
             vector(light.position),
@@ -142,7 +142,7 @@ fn tachyon_scene(scene: &Scene<'_>) -> String {
         write(format_args!(
             "TEXTURE AMBIENT {} DIFFUSE 1.0 SPECULAR {} OPACITY 1.0 PHONG PLASTIC {} PHONG_SIZE {} COLOR {} {} {} \
              TEXFUNC 0",
-            scene.ambient,
+            scene.ambient(),
             material.reflection,
             material.specular.r,
             material.shininess,

@@ -64,7 +64,7 @@ impl BothScalars {
 
 impl<T: HostScalar> Loaded<T> {
     fn new(pools: MutexGuard<'static, HostPools<T>>) -> Self {
-        let polynomial = pools.as_scene().materials.iter().map(polynomial).collect();
+        let polynomial = pools.as_scene().materials().iter().map(polynomial).collect();
         Self { pools, polynomial }
     }
 

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use scanray::{
-    Adaptive, CenterSample, Color, Nearest, Needs, Observer, PixelSource, Ray, Resolution,
+    Adaptive, CenterSample, Color, Nearest, Stages, Observer, PixelSource, Ray, Resolution,
     SampleSource, Scalar, Scanline, Scene, Subpixel, Supersampled, Tracer,
 };
 
@@ -48,7 +48,7 @@ macro_rules! with_source {
 pub(crate) struct ReportTracer<'a, T>(AllStages<'a, T>);
 
 type AllStages<'a, T> =
-    Tracer<'a, T, { Needs::ALL.union(Needs::TREE).union(Needs::CUTOFF).bits() }, DEPTH>;
+    Tracer<'a, T, { Stages::ALL.union(Stages::BVH).union(Stages::CUTOFF).bits() }, DEPTH>;
 
 impl<'a, T: Scalar> ReportTracer<'a, T> {
     /// A tracer for a picture of a scene. A cut-off of 0 casts every ray.
@@ -63,7 +63,7 @@ impl<'a, T: Scalar> ReportTracer<'a, T> {
         cutoff: f64,
     ) -> Result<Self, Failure> {
         Tracer::new(scene)
-            .with_tree()
+            .with_bvh()
             .with_stack()
             .with_cutoff(T::from_f64(cutoff))
             .with_resolution(resolution)

@@ -102,7 +102,7 @@ impl<'a, T: Scalar> Textbook<'a, T> {
     fn radiance_at(&self, ray: &Ray<T>, depth: usize, effort: &mut Effort) -> Color<T> {
         self.count(effort);
         let Some(hit) = self.nearest(ray) else {
-            let background = &self.scene.background;
+            let background = &self.scene.background();
             return if background.sky {
                 Background::sky(ray.direction)
             } else {
@@ -151,8 +151,8 @@ impl<'a, T: Scalar> Textbook<'a, T> {
     ) -> Color<T> {
         let whole_shininess = material.whole_shininess();
         let material: &MaterialDescription<T> = material.description();
-        let mut color = material.ambient * self.scene.ambient;
-        for light in self.scene.lights {
+        let mut color = material.ambient * self.scene.ambient();
+        for light in self.scene.lights() {
             let to_light = light.position - point;
             let distance = to_light.dot(to_light).sqrt();
             let to_light = to_light * (T::ONE / distance);
@@ -188,8 +188,8 @@ impl<'a, T: Scalar> Textbook<'a, T> {
     /// The distances and normals of all crossings in front of the ray, but for those that are too near.
     fn crossings(&self, ray: &Ray<T>) -> impl Iterator<Item = Hit<'a, T>> {
         let (scene, ray, least) = (self.scene, *ray, self.least_distance);
-        let material = move |index: u32| &scene.materials[index as usize];
-        let spheres = scene.spheres.iter().filter_map(move |s| {
+        let material = move |index: u32| &scene.materials()[index as usize];
+        let spheres = scene.spheres().iter().filter_map(move |s| {
             let t = sphere(s.center(), s.radius(), &ray, least)?;
             let point = ray.at(t);
             Some(Hit {
@@ -199,7 +199,7 @@ impl<'a, T: Scalar> Textbook<'a, T> {
                 material: material(s.surface().material),
             })
         });
-        let planes = scene.planes.iter().filter_map(move |p| {
+        let planes = scene.planes().iter().filter_map(move |p| {
             let t = (p.height() - p.normal().dot(ray.origin)) / p.normal().dot(ray.direction);
             (t > least && t.is_finite()).then(|| Hit {
                 t,
@@ -208,7 +208,7 @@ impl<'a, T: Scalar> Textbook<'a, T> {
                 material: material(p.surface().material),
             })
         });
-        let triangles = scene.triangles.iter().filter_map(move |triangle| {
+        let triangles = scene.triangles().iter().filter_map(move |triangle| {
             let t = triangle_crossing(triangle.vertices(), &ray)?;
             (t > least).then(|| Hit {
                 t,
@@ -242,7 +242,7 @@ impl<'a, T: Scalar> Textbook<'a, T> {
                 t,
                 point: place.point,
                 normal: place.normal,
-                material: &scene.materials[object.surface().material as usize],
+                material: &scene.materials()[object.surface().material as usize],
             })
         })
     }

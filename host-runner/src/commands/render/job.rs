@@ -68,7 +68,7 @@ impl Job<'_> {
                 still_draw(print(|out| scene_data::write(out, &scene)))?;
             }
         }
-        let resolution = self.settings.resolution(scene.resolution);
+        let resolution = self.settings.resolution(scene.resolution());
         let rows = RangeOption::within(
             args.rows,
             resolution.height,
@@ -208,7 +208,7 @@ impl Job<'_> {
                 lines.join(", ")
             )
         });
-        let Vec3 { x, z, .. } = scene.camera.position;
+        let Vec3 { x, z, .. } = scene.camera().position;
         say(format_args!(
             "warning: {}: the camera passes through objects: {}. Turn about another axis, or on the spot: \
              --about {x},{z}",

@@ -184,7 +184,12 @@ fn show<T: HostScalar + Drawing>(
     let scene = pools.as_scene();
     let output = Output::new();
     // The line below the picture is the next prompt's.
-    let (size, shown) = sizes(settings, scene.resolution, output.columns, output.lines - 1);
+    let (size, shown) = sizes(
+        settings,
+        scene.resolution(),
+        output.columns,
+        output.lines - 1,
+    );
     let mut pixels = Pixels::new(size)?;
     let mut lines_above = 0;
     let mut write = |pixels: &Pixels| {
@@ -303,7 +308,7 @@ impl Session<'_> {
         let scene = pools.as_scene();
         let (size, shown) = sizes(
             self.settings,
-            scene.resolution,
+            scene.resolution(),
             self.output.columns,
             self.output.lines.saturating_sub(1).max(1),
         );

@@ -58,7 +58,7 @@ fn compare(name: &str, random: &Random, spheres: &[(Vec3, f32)], is_tree_expecte
     }
     pools.prepare();
     let scene = pools.as_scene();
-    assert_eq!(scene.tree.is_some(), is_tree_expected, "{name}");
+    assert_eq!(scene.accel().bvh().is_some(), is_tree_expected, "{name}");
     if is_tree_expected {
         check_layouts(name, scene);
     }
@@ -75,7 +75,7 @@ fn compare(name: &str, random: &Random, spheres: &[(Vec3, f32)], is_tree_expecte
 
 /// Every sphere is in one leaf of each layout, and a pair and its part of the wide tree have the same spheres.
 fn check_layouts(name: &str, scene: Scene<'_>) {
-    let tracer = Tracer::new(scene).with_tree().with_stack::<STACK>();
+    let tracer = Tracer::new(scene).with_bvh().with_stack::<STACK>();
     let packets = PacketTracer::new(tracer);
     let tree = PacketTree::new(&packets, 0).expect("the builder's leaves are small");
     let wide = tree.wide.as_ref().expect("a walk has room for this tree");
@@ -88,7 +88,7 @@ fn check_layouts(name: &str, scene: Scene<'_>) {
     );
     all.sort_unstable();
     // The floor comes first.
-    let expected: Vec<u32> = (1..=scene.spheres.len() as u32).collect();
+    let expected: Vec<u32> = (1..=scene.spheres().len() as u32).collect();
     assert_eq!(all, expected, "{name}");
     for (index, pair) in tree.pairs.nodes.iter().enumerate() {
         let mut spheres = spheres_of_pair(&tree.pairs, index);
@@ -242,7 +242,7 @@ fn a_tree_of_large_leaves_is_left_to_the_core() {
         entries: &entries,
     };
     let tracer = Tracer::new(Scene { tree, ..scene })
-        .with_tree()
+        .with_bvh()
         .with_stack::<STACK>();
     assert!(PacketTracer::new(tracer).tree.is_none());
     let resolution = Resolution {

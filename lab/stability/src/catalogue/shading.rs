@@ -147,7 +147,7 @@ fn plane_shadows_itself<T: Number>(record: &mut Record) {
         let distance = scale * random.between(-1.0, 1.0);
         model.parts = vec![plane(normal, distance, detector())];
         let pools = model.build();
-        let floor = pools.as_scene().planes[0];
+        let floor = pools.as_scene().planes()[0];
         let n = widened(floor.normal());
         let above = |height: f64| {
             let along =
@@ -160,7 +160,7 @@ fn plane_shadows_itself<T: Number>(record: &mut Record) {
         let target = widened(above(0.0));
         let ray = ray_to(model.camera, target);
         let pools = model.build();
-        let floor = pools.as_scene().planes[0];
+        let floor = pools.as_scene().planes()[0];
         let Some(t) = floor.intersect(&ray, T::MAX) else {
             continue;
         };
@@ -364,7 +364,7 @@ fn light_exactly_at_the_hit<T: Number>(record: &mut Record) {
         model.parts = vec![plane(vector(0.0, 0.0, -1.0), 4.0, material)];
         let ray = ray_to(model.camera, Vec3::new(x, y, 4.0));
         let pools = model.build();
-        let wall = pools.as_scene().planes[0];
+        let wall = pools.as_scene().planes()[0];
         let Some(t) = wall.intersect(&ray, T::MAX) else {
             continue;
         };
