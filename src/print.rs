@@ -256,23 +256,8 @@ mod tests {
 
     #[test]
     fn more_than_one_light_is_an_error() {
-        let scene = Scene::<f32> {
-            camera: Default::default(),
-            resolution: crate::camera::Resolution {
-                width: 1,
-                height: 1,
-            },
-            ambient: 0.0,
-            background: Default::default(),
-            lights: &[Light::default(), Light::default()],
-            spheres: &[],
-            planes: &[],
-            triangles: &[],
-            materials: &[],
-            sides: &[],
-            zones: &[],
-            tree: crate::scene::Tree::NONE,
-        };
+        let lights = [Light::default(), Light::default()];
+        let scene = Scene::<f32>::EMPTY.with_lights(&lights);
         assert_eq!(
             print(&scene).err(),
             Some(PrintError::TooManyLights { lights: 2 })

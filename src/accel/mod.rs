@@ -92,7 +92,6 @@ impl<'a, T> Accel<'a, T> {
     pub const fn grids(&self) -> &'a [PlaneGrid<T>] {
         self.grids
     }
-
 }
 
 impl<'a, T: Copy> Accel<'a, T> {

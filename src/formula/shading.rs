@@ -44,3 +44,18 @@ pub fn sky<N: Number>(y: N) -> Color<N> {
     let white = one - s;
     Color::new(white + s.halve(), white + s * s.constant(0.7), white + s)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_powers_are_those_of_the_standard_library() {
+        for exponent in [0_u16, 1, 2, 3, 50, 255, 1024] {
+            for base in [0.0_f64, 0.1, 0.5, 0.99, 0.9999, 1.0] {
+                let exact = base.powi(i32::from(exponent));
+                assert!((power(base, exponent) - exact).abs() < 1e-12);
+            }
+        }
+    }
+}

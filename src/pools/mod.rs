@@ -398,7 +398,7 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
         match shape {
             Shape::Sphere { center, radius } => self.add_sphere(center, radius, material),
             Shape::Plane { normal, distance } => self.add_plane(normal, distance, material),
-            Shape::Triangle { vertices } => self.add_triangle(vertices, material),
+            Shape::Triangle(vertices) => self.add_triangle(vertices, material),
         }
     }
 
@@ -465,7 +465,7 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
         match shape {
             Shape::Sphere { center, radius } => self.set_sphere(index, center, radius),
             Shape::Plane { normal, distance } => self.set_plane(index, normal, distance),
-            Shape::Triangle { vertices } => self.set_triangle(index, vertices),
+            Shape::Triangle(vertices) => self.set_triangle(index, vertices),
         }
     }
 

@@ -112,46 +112,43 @@ pub enum Shape<T = f32> {
         /// Distance, in units of the normal's length.
         distance: T,
     },
-    /// Three vertices and what is between them.
-    Triangle {
-        /// Vertices; the normal is `normalize((v3 − v1) × (v2 − v1))`.
-        vertices: [Vec3<T>; 3],
-    },
+    /// Three vertices and what is between them; the normal is `normalize((v3 − v1) × (v2 − v1))`.
+    Triangle([Vec3<T>; 3]),
 }
 
-/// A rigid motion of a scene.
-pub trait Motion<T: Scalar> {
+/// How the numbers of a shape are changed: moved, turned, scaled, mirrored, rounded to another scalar.
+pub trait Transform<T: Scalar, U: Scalar = T> {
     /// Where a point goes.
-    fn point(&self, point: Vec3<T>) -> Vec3<T>;
+    fn point(&self, point: Vec3<T>) -> Vec3<U>;
 
-    /// How a vector is turned.
-    fn vector(&self, vector: Vec3<T>) -> Vec3<T>;
+    /// How a normal is turned; its length does not matter.
+    fn normal(&self, normal: Vec3<T>) -> Vec3<U>;
 
-    /// Where the points with `normal·p + distance = 0` go.
-    fn plane(&self, normal: Vec3<T>, distance: T) -> (Vec3<T>, T) {
-        let turned = self.vector(normal);
-        // Where the origin goes tells by how much the plane moves along its normal.
-        let origin = self.point(Vec3::splat(T::ZERO));
-        (turned, distance - turned.dot(origin))
+    /// How long a length becomes.
+    fn length(&self, length: T) -> U;
+
+    /// Where the points with `normal·p + distance = 0` go, the normal's length kept. Unless it is said otherwise the origin stays.
+    fn plane(&self, normal: Vec3<T>, distance: T) -> (Vec3<U>, U) {
+        (self.normal(normal), self.length(distance))
     }
 }
 
 impl<T: Scalar> Shape<T> {
-    /// The shape somewhere else.
+    /// The shape changed.
     #[must_use]
-    pub fn moved(self, motion: &impl Motion<T>) -> Self {
+    pub fn transformed<U: Scalar>(self, by: &impl Transform<T, U>) -> Shape<U> {
         match self {
-            Self::Sphere { center, radius } => Self::Sphere {
-                center: motion.point(center),
-                radius,
+            Self::Sphere { center, radius } => Shape::Sphere {
+                center: by.point(center),
+                radius: by.length(radius),
             },
             Self::Plane { normal, distance } => {
-                let (normal, distance) = motion.plane(normal, distance);
-                Self::Plane { normal, distance }
+                let (normal, distance) = by.plane(normal, distance);
+                Shape::Plane { normal, distance }
             }
-            Self::Triangle { vertices } => Self::Triangle {
-                vertices: vertices.map(|vertex| motion.point(vertex)),
-            },
+            Self::Triangle([v1, v2, v3]) => {
+                Shape::Triangle([by.point(v1), by.point(v2), by.point(v3)])
+            }
         }
     }
 }
@@ -162,7 +159,7 @@ impl<T> Shape<T> {
         match self {
             Self::Sphere { .. } => Kind::Sphere,
             Self::Plane { .. } => Kind::Plane,
-            Self::Triangle { .. } => Kind::Triangle,
+            Self::Triangle(_) => Kind::Triangle,
         }
     }
 }

@@ -252,9 +252,7 @@ impl<T: Scalar> Primitive<T> for Triangle<T> {
     }
 
     fn shape(&self) -> Shape<T> {
-        Shape::Triangle {
-            vertices: self.vertices,
-        }
+        Shape::Triangle(self.vertices)
     }
 
     #[inline(always)]

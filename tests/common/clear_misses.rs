@@ -24,7 +24,7 @@ impl<T: Scalar> Observer<T> for ClearMisses {
                 triangle.clearly_misses(ray),
                 triangle.intersect(ray, T::MAX).is_some(),
             ),
-            Object::Plane(_) => return,
+            _ => return,
         };
         assert!(!(is_clear && is_met), "{ray:?} meets {object:?}");
         self.count += u64::from(is_clear);

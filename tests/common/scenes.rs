@@ -2,9 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+pub use scanray::Shape;
+use scanray::shape::Transform;
 use scanray::{
-    Background, Camera, Color, FromDecimal, Light, MaterialDescription, Object, PoolsMut,
-    Resolution, Scalar, Scene, SceneError, ScenePools, Vec3,
+    Background, Camera, Color, FromDecimal, Light, MaterialDescription, PoolsMut, Resolution,
+    Scalar, Scene, SceneError, ScenePools, Vec3,
 };
 
 /// A file of the repository.
@@ -90,27 +92,6 @@ pub struct Part<T> {
     pub material: MaterialDescription<T>,
 }
 
-/// The geometry of a [`Part`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Shape<T> {
-    /// A sphere.
-    Sphere {
-        /// Its centre.
-        center: Vec3<T>,
-        /// Its radius.
-        radius: T,
-    },
-    /// The plane of the points with `normal·p + distance = 0`.
-    Plane {
-        /// Its normal, of any length but 0.
-        normal: Vec3<T>,
-        /// Its distance.
-        distance: T,
-    },
-    /// A triangle of three vertices.
-    Triangle([Vec3<T>; 3]),
-}
-
 impl<T: Scalar> Part<T> {
     /// Adds the object to pools.
     ///
@@ -118,11 +99,33 @@ impl<T: Scalar> Part<T> {
     ///
     /// Those of the pools.
     pub fn add_to(&self, pools: &mut PoolsMut<'_, T>) -> Result<(), SceneError> {
-        match self.shape {
-            Shape::Sphere { center, radius } => pools.add_sphere(center, radius, self.material),
-            Shape::Plane { normal, distance } => pools.add_plane(normal, distance, self.material),
-            Shape::Triangle(vertices) => pools.add_triangle(vertices, self.material),
-        }
+        pools.add(self.shape, self.material)
+    }
+}
+
+/// A change of shapes by functions.
+struct Mapped<P, N, L> {
+    point: P,
+    normal: N,
+    length: L,
+}
+
+impl<T: Scalar, U: Scalar, P, N, L> Transform<T, U> for Mapped<P, N, L>
+where
+    P: Fn(Vec3<T>) -> Vec3<U>,
+    N: Fn(Vec3<T>) -> Vec3<U>,
+    L: Fn(T) -> U,
+{
+    fn point(&self, point: Vec3<T>) -> Vec3<U> {
+        (self.point)(point)
+    }
+
+    fn normal(&self, normal: Vec3<T>) -> Vec3<U> {
+        (self.normal)(normal)
+    }
+
+    fn length(&self, length: T) -> U {
+        (self.length)(length)
     }
 }
 
@@ -150,17 +153,7 @@ impl<T: Scalar> Model<T> {
             .objects()
             .map(|object| Part {
                 material: scene.material(object.surface()),
-                shape: match object {
-                    Object::Sphere(sphere) => Shape::Sphere {
-                        center: sphere.center(),
-                        radius: sphere.radius(),
-                    },
-                    Object::Plane(plane) => Shape::Plane {
-                        normal: plane.normal(),
-                        distance: -plane.height(),
-                    },
-                    Object::Triangle(triangle) => Shape::Triangle(triangle.vertices()),
-                },
+                shape: object.shape(),
             })
             .collect();
         Self {
@@ -185,21 +178,13 @@ impl<T: Scalar> Model<T> {
         for light in &mut model.lights {
             light.position = point(light.position);
         }
+        let map = Mapped {
+            point,
+            normal,
+            length: |length: T| length * scale,
+        };
         for part in &mut model.parts {
-            part.shape = match part.shape {
-                Shape::Sphere { center, radius } => Shape::Sphere {
-                    center: point(center),
-                    radius: radius * scale,
-                },
-                Shape::Plane {
-                    normal: n,
-                    distance,
-                } => Shape::Plane {
-                    normal: normal(n),
-                    distance: distance * scale,
-                },
-                Shape::Triangle(vertices) => Shape::Triangle(vertices.map(&point)),
-            };
+            part.shape = part.shape.transformed(&map);
         }
         model
     }
@@ -221,17 +206,11 @@ impl<T: Scalar> Model<T> {
         let vector = |v: Vec3<T>| Vec3::new(number(v.x), number(v.y), number(v.z));
         let color = |c: Color<T>| Color::new(number(c.r), number(c.g), number(c.b));
         let part = |part: &Part<T>| Part {
-            shape: match part.shape {
-                Shape::Sphere { center, radius } => Shape::Sphere {
-                    center: vector(center),
-                    radius: number(radius),
-                },
-                Shape::Plane { normal, distance } => Shape::Plane {
-                    normal: vector(normal),
-                    distance: number(distance),
-                },
-                Shape::Triangle(vertices) => Shape::Triangle(vertices.map(vector)),
-            },
+            shape: part.shape.transformed(&Mapped {
+                point: vector,
+                normal: vector,
+                length: number,
+            }),
             material: MaterialDescription {
                 diffuse: color(part.material.diffuse),
                 specular: color(part.material.specular),

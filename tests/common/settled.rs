@@ -16,7 +16,7 @@ pub struct View<T> {
 
 impl<T: Scalar> View<T> {
     /// The crate's camera of a tracer.
-    pub fn of<const NEEDS: u32, const STACK: usize>(tracer: &Tracer<'_, T, NEEDS, STACK>) -> Self {
+    pub fn of<const NEEDS: u64, const STACK: usize>(tracer: &Tracer<'_, T, NEEDS, STACK>) -> Self {
         Self {
             position: tracer.scene().camera().position,
             size: tracer.resolution(),
@@ -52,7 +52,7 @@ pub fn ray_beside<T: Scalar>(
 
 /// The f64 colour of a pixel, if it stays within one level of 255 while the sample moves by up to a
 /// thousandth of a pixel: then rounding alone may not move it either.
-pub fn settled_color<const NEEDS: u32, const STACK: usize>(
+pub fn settled_color<const NEEDS: u64, const STACK: usize>(
     tracer: &Tracer<'_, f64, NEEDS, STACK>,
     pixel: (u16, u16),
 ) -> Option<Color<f64>> {
@@ -60,7 +60,7 @@ pub fn settled_color<const NEEDS: u32, const STACK: usize>(
 }
 
 /// [`settled_color`] of another camera's picture.
-pub fn settled_through<const NEEDS: u32, const STACK: usize>(
+pub fn settled_through<const NEEDS: u64, const STACK: usize>(
     tracer: &Tracer<'_, f64, NEEDS, STACK>,
     view: &View<f64>,
     pixel: (u16, u16),

@@ -4,8 +4,8 @@
 use crate::common::random::Random;
 use crate::common::sampling::bits;
 use scanray::{
-    Camera, Color, Light, MaterialDescription, Ray, Resolution, Scalar, Scene, ScenePools, Side,
-    Tracer, Tree, Vec3,
+    Camera, Color, Light, MaterialDescription, Ray, Resolution, Scalar, ScenePools, Side, Tracer,
+    Vec3,
 };
 
 type Pools<T> = ScenePools<T, 256, 4, 512, 800, 1, 0, 768>;
@@ -263,10 +263,7 @@ fn compare_crowds<T: Scalar>(seed: u64, scenes: usize) {
         let scene = crowd.pools.as_scene();
         assert!(scene.accel().bvh().is_some());
         let by_tree = Tracer::new(scene).with_bvh();
-        let brute_force = Tracer::new(Scene {
-            tree: Tree::NONE,
-            ..scene
-        });
+        let brute_force = Tracer::new(scene.without_accel());
         for _ in 0..200 {
             let ray = crowd.ray();
             let (actual, expected) = (by_tree.nearest(&ray), brute_force.nearest(&ray));
@@ -346,10 +343,7 @@ fn pictures_are_those_of_brute_force() {
             height: 18,
         };
         let by_tree = Tracer::new(scene).with_bvh().with_resolution(size);
-        let brute_force = Scene {
-            tree: Tree::NONE,
-            ..scene
-        };
+        let brute_force = scene.without_accel();
         let brute_force = Tracer::new(brute_force).with_resolution(size);
         for y in 0..size.height {
             for x in 0..size.width {
@@ -377,10 +371,7 @@ fn rays_that_are_none_meet_nothing() {
             ray.origin = Vec3::new(number(), number(), number());
         }
         let nearest = tracer.nearest(&ray);
-        let brute_force = Tracer::new(Scene {
-            tree: Tree::NONE,
-            ..*tracer.scene()
-        });
+        let brute_force = Tracer::new(tracer.scene().without_accel());
         if !(ray.origin.is_finite() && ray.direction.is_finite()) {
             assert_eq!(nearest, None, "{ray:?}");
             assert_eq!(brute_force.nearest(&ray), None, "{ray:?}");

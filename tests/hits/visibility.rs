@@ -6,8 +6,7 @@ use crate::common::random::Random;
 use crate::common::sampling::{self, bits};
 use crate::common::scenes::{self, Model, Part, RoomyPools, Shape};
 use scanray::{
-    Background, Color, Light, MaterialDescription, Resolution, Scalar, Scene, ScenePools, Tracer,
-    Vec3,
+    Background, Color, Light, MaterialDescription, Resolution, Scalar, ScenePools, Tracer, Vec3,
 };
 
 /// Compares the picture of prepared pools with that of pools which know nothing of visibility.
@@ -226,6 +225,7 @@ fn random_model<T: Scalar>(random: &Random) -> Model<T> {
                 Shape::Sphere { center, .. } => center,
                 Shape::Plane { normal, distance } => normal * -distance,
                 Shape::Triangle([v1, v2, _]) => (v1 + v2) * T::HALF,
+                _ => unreachable!(),
             },
             2 => maker.point() * T::from_f64(100.0),
             _ => maker.point() + Vec3::new(T::ZERO, T::from_f64(scale), T::ZERO),
@@ -441,11 +441,7 @@ fn compare_texts(texts: &[&str]) {
         pools.parse(text.as_bytes()).unwrap();
         let scene = pools.as_scene();
         let prepared = Tracer::new(scene).with_resolution(SIZE);
-        let plain = Scene {
-            sides: &[],
-            zones: &[],
-            ..scene
-        };
+        let plain = scene.without_accel();
         let plain = Tracer::new(plain).with_resolution(SIZE);
         for (x, y) in (0..8).flat_map(|y| (0..8).map(move |x| (x, y))) {
             let expected = plain.radiance(plain.primary_ray(&plain.scanline(y), x));

@@ -236,7 +236,7 @@ fn a_cutoff_of_one_leaves_no_secondary_ray_whose_coefficient_is_below() {
 
 #[test]
 fn the_stage_is_not_dropped_unnoticed() {
-    const FEW: u32 = Stages::ALL.bits();
+    const FEW: u64 = Stages::ALL.bits();
     let pools = load::<f32>("default");
     let tracer = Tracer::new(pools.as_scene()).with_cutoff(0.1);
     assert_eq!(

@@ -21,7 +21,7 @@ const COMMON: Stages = Stages::SPHERES
     .union(Stages::REFLECTION);
 
 /// Draws a scene with the stages `NEEDS` alone, which must be exactly those it needs.
-fn draws_with<const NEEDS: u32>(name: &str) {
+fn draws_with<const NEEDS: u64>(name: &str) {
     let pools = load::<f32>(name);
     let all = Tracer::new(pools.as_scene()).with_resolution(SIZE);
     assert_eq!(all.stages(), Stages::ALL);
@@ -84,8 +84,8 @@ fn loops_are_needed_where_there_are_several() {
     const REST: Stages = Stages::SEVERAL_PLANES
         .union(Stages::SEVERAL_TRIANGLES)
         .union(Stages::MANY_OBJECTS);
-    assert_eq!(Pools::NEEDS, Stages::ALL.without(REST));
-    let none = ScenePools::<f32, 0, 0, 1, 1, 0>::NEEDS;
+    assert_eq!(Pools::STAGES, Stages::ALL.without(REST));
+    let none = ScenePools::<f32, 0, 0, 1, 1, 0>::STAGES;
     assert!(none.contains(Stages::TRIANGLES));
     for left_out in [Stages::SPHERES, Stages::PLANES, Stages::LIGHT, LOOPS, REST] {
         assert!(none.without(left_out) == none, "{left_out}");
@@ -104,14 +104,14 @@ fn loops_are_needed_where_there_are_several() {
     let pixels = || (0..6).flat_map(|y| (0..8).map(move |x| (x, y)));
     let dark = Tracer::new(one_light);
     let before: Vec<_> = pixels().map(|(x, y)| bits(dark.pixel(x, y))).collect();
-    let mut light = one_light.lights[0];
+    let mut light = one_light.lights()[0];
     light.position.x = -5.0;
     pools.as_mut().add_light(light).unwrap();
     pools.prepare();
     let scene = pools.as_scene();
     assert!(scene.needs().contains(LOOPS));
     let all = Tracer::new(scene);
-    let few = all.specialize::<{ Pools::NEEDS.bits() }>().unwrap();
+    let few = all.specialize::<{ Pools::STAGES.bits() }>().unwrap();
     let mut after = Vec::new();
     for (x, y) in pixels() {
         after.push(bits(few.pixel(x, y)));

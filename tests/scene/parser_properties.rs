@@ -219,7 +219,7 @@ fn write(scene: &SceneNumbers, choices: &[u8]) -> String {
         text += style.line_end();
     }
     style.record(&mut text, &[scene.objects.len().to_string()]);
-    let words = style.numbers(&scene.camera());
+    let words = style.numbers(&scene.camera);
     style.record(&mut text, &words);
     style.record(
         &mut text,
@@ -227,10 +227,10 @@ fn write(scene: &SceneNumbers, choices: &[u8]) -> String {
     );
     let words = style.numbers(&scene.light);
     style.record(&mut text, &words);
-    let words = style.numbers(&[scene.ambient()]);
+    let words = style.numbers(&[scene.ambient]);
     style.record(&mut text, &words);
     style.record(&mut text, &[u8::from(scene.sky).to_string()]);
-    let words = style.numbers(&scene.background());
+    let words = style.numbers(&scene.background);
     style.record(&mut text, &words);
     for object in &scene.objects {
         let mut words = vec![object.kind.to_string()];
@@ -268,12 +268,12 @@ fn assert_same_bits(actual: Vec3, expected: Vec3) {
 
 fn assert_stored(scene: &SceneNumbers, pools: &RoomyPools<f32>) {
     let stored = pools.as_scene();
-    assert_same_bits(stored.camera().position, vector(scene.camera()));
+    assert_same_bits(stored.camera().position, vector(scene.camera));
     let (width, height) = scene.size;
     assert_eq!(stored.resolution(), Resolution { width, height });
-    assert_eq!(stored.ambient().to_bits(), scene.ambient().to_bits());
+    assert_eq!(stored.ambient().to_bits(), scene.ambient.to_bits());
     assert_eq!(stored.background().sky, scene.sky);
-    assert_eq!(stored.background().color, color(scene.background()));
+    assert_eq!(stored.background().color, color(scene.background));
     let [light] = stored.lights() else {
         panic!("{} lights", stored.lights().len())
     };

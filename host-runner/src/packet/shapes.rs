@@ -1,8 +1,8 @@
 //! Eight rays against one object: `intersect` and `occludes` of the core's shapes, lane by lane.
 
 use fearless_simd::prelude::*;
-use scanray::shape::{Plane, Triangle};
 use scanray::Vec3;
+use scanray::shape::{Plane, Triangle};
 
 use super::lanes::{Mask, Numbers, Rays, Vec3s};
 

@@ -7,7 +7,7 @@ use fearless_simd::Level;
 use scanray::shape::{Sphere, Surface};
 use scanray::{
     Background, Camera, Color, Light, Material, MaterialDescription, Resolution, Scene, SceneError,
-    ScenePools, Subpixel, Supersampled, Tracer, Tree, Vec3,
+    ScenePools, Subpixel, Supersampled, Tracer, Vec3,
 };
 
 use super::PacketTracer;
@@ -274,26 +274,16 @@ fn draws_objects_without_material_and_with_any_numbers() {
         specular: Color::new(1.0, 1.0, 1.0),
         diffuse: Color::new(1.0, 1.0, 1.0),
     };
-    let scene = Scene {
-        camera: Camera::default(),
-        resolution: Resolution {
-            width: 0,
-            height: 0,
-        },
-        ambient: 0.5,
-        background: Background {
+    let lights = [light];
+    let scene = Scene::EMPTY
+        .with_ambient(0.5)
+        .with_background(Background {
             color: Color::new(0.1, 2.0, 0.3),
             sky: false,
-        },
-        lights: &[light],
-        spheres: &spheres,
-        planes: &[],
-        triangles: &[],
-        materials: &materials,
-        sides: &[],
-        zones: &[],
-        tree: Tree::NONE,
-    };
+        })
+        .with_lights(&lights)
+        .with_spheres(&spheres)
+        .with_materials(&materials);
     assert_same("without material", scene, 33, 21, 5);
 }
 

@@ -266,6 +266,7 @@ mod tests {
                 Object::Sphere(sphere) => sphere.occludes(&ray, distance),
                 Object::Plane(plane) => plane.occludes(&ray, distance),
                 Object::Triangle(triangle) => triangle.occludes(&ray, distance),
+                _ => unreachable!(),
             });
         }
         let at_most = usize::from(node.depth < 5);

@@ -12,7 +12,7 @@ mod path;
 
 use std::f64::consts::FRAC_PI_2;
 
-use scanray::shape::{Motion, Shape};
+use scanray::shape::{Shape, Transform};
 use scanray::{
     Background, Camera, Light, MaterialDescription, PoolsMut, Resolution, Scalar, Scene,
     SceneError, Vec3,
@@ -78,7 +78,7 @@ impl<T: Scalar> Turntable<T> {
             })?;
         }
         for (shape, material) in &self.objects {
-            pools.add(shape.moved(&turn), *material)?;
+            pools.add(shape.transformed(&turn), *material)?;
         }
         pools.prepare();
         Ok(())
@@ -114,16 +114,20 @@ impl Turn {
     }
 }
 
-impl<T: Scalar> Motion<T> for Turn {
+impl<T: Scalar> Transform<T> for Turn {
     fn point(&self, point: Vec3<T>) -> Vec3<T> {
         let Axis { x, z } = self.axis;
         let (right, ahead) = self.direction(point.x.to_f64() - x, point.z.to_f64() - z);
         Vec3::new(T::from_f64(right + x), point.y, T::from_f64(ahead + z))
     }
 
-    fn vector(&self, vector: Vec3<T>) -> Vec3<T> {
-        let (right, ahead) = self.direction(vector.x.to_f64(), vector.z.to_f64());
-        Vec3::new(T::from_f64(right), vector.y, T::from_f64(ahead))
+    fn normal(&self, normal: Vec3<T>) -> Vec3<T> {
+        let (right, ahead) = self.direction(normal.x.to_f64(), normal.z.to_f64());
+        Vec3::new(T::from_f64(right), normal.y, T::from_f64(ahead))
+    }
+
+    fn length(&self, length: T) -> T {
+        length
     }
 
     fn plane(&self, normal: Vec3<T>, distance: T) -> (Vec3<T>, T) {
@@ -133,7 +137,7 @@ impl<T: Scalar> Motion<T> for Turn {
         let before = normal.x.to_f64() * x + normal.z.to_f64() * z;
         let after = right * x + ahead * z;
         (
-            self.vector(normal),
+            self.normal(normal),
             T::from_f64(before - after + distance.to_f64()),
         )
     }

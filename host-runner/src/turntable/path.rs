@@ -1,6 +1,6 @@
 //! What the camera meets on its way around a scene.
 
-use scanray::shape::Motion;
+use scanray::shape::Transform;
 use scanray::{ObjectNumber, Ray, Scalar, Scene, Tracer};
 
 use super::{Axis, Turn};

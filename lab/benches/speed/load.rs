@@ -38,7 +38,8 @@ pub(crate) fn run() {
         let shapes = size_of_val(scene_data.spheres())
             + size_of_val(scene_data.planes())
             + size_of_val(scene_data.triangles());
-        let tree = size_of_val(scene_data.accel().bvh().nodes) + size_of_val(scene_data.accel().bvh().entries);
+        let tree = size_of_val(scene_data.accel().bvh().nodes)
+            + size_of_val(scene_data.accel().bvh().entries);
         println!(
             "{:<18} {:>8.4} {:>8.4}   {:>18}   {:>7.1} {:>7.1}",
             name(kind, count),

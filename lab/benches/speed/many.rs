@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use cpu_time::ProcessTime;
-use scanray::{Resolution, Scene, Tracer, Tree};
+use scanray::{Resolution, Scene, Tracer};
 
 use crate::peers::Peer;
 use crate::run::{median, scanray};
@@ -85,10 +85,7 @@ fn time(_: Peer, _: &Path) -> f64 {
 
 /// How many times as long the core takes without the tree: for 48 pixels all over the picture, ray by ray.
 fn gain(scene: Scene<'_>) -> f64 {
-    let brute_force = Scene {
-        tree: Tree::NONE,
-        ..scene
-    };
+    let brute_force = scene.without_accel();
     let time = |scene, repeats: u32| {
         let tracer = Tracer::new(scene).with_bvh().with_resolution(SIZE);
         let start = ProcessTime::now();

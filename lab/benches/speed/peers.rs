@@ -132,9 +132,10 @@ fn tachyon_scene(scene: &Scene<'_>) -> String {
                 let [a, b, c] = triangle.vertices().map(vector);
                 write(format_args!("TRI V0 {a} V1 {b} V2 {c}"));
             }
+            other => unreachable!("no scene of the bench has {other:?}"),
         }
         let material = scene
-            .materials
+            .materials()
             .get(object.surface().material as usize)
             .map(|material| *material.description())
             .unwrap_or_default();

@@ -64,7 +64,12 @@ impl BothScalars {
 
 impl<T: HostScalar> Loaded<T> {
     fn new(pools: MutexGuard<'static, HostPools<T>>) -> Self {
-        let polynomial = pools.as_scene().materials().iter().map(polynomial).collect();
+        let polynomial = pools
+            .as_scene()
+            .materials()
+            .iter()
+            .map(polynomial)
+            .collect();
         Self { pools, polynomial }
     }
 
@@ -72,10 +77,10 @@ impl<T: HostScalar> Loaded<T> {
         let scene = self.pools.as_scene();
         match power {
             PowerRoutine::Squaring => scene,
-            PowerRoutine::Polynomial => Scene {
-                materials: &self.polynomial,
-                ..scene
-            },
+            // A power of another kind changes nothing that is derived.
+            PowerRoutine::Polynomial => scene
+                .with_materials(&self.polynomial)
+                .with_accel(*scene.accel()),
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 use scanray::{
-    Adaptive, CenterSample, Color, Nearest, Stages, Observer, PixelSource, Ray, Resolution,
-    SampleSource, Scalar, Scanline, Scene, Subpixel, Supersampled, Tracer,
+    Adaptive, CenterSample, Color, Nearest, Observer, PixelSource, Ray, Resolution, SampleSource,
+    Scalar, Scanline, Scene, Stages, Subpixel, Supersampled, Tracer,
 };
 
 use super::references::DEPTH;

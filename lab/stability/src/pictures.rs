@@ -223,12 +223,12 @@ impl Telling {
         let (single, double) = (single.as_scene(), double.as_scene());
         let (half_height, size) = (self.half_height, SIZE);
         let single_view = View {
-            position: single.camera.position,
+            position: single.camera().position,
             size,
             half_height,
         };
         let double_view = View {
-            position: double.camera.position,
+            position: double.camera().position,
             size,
             half_height,
         };

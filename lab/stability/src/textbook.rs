@@ -8,7 +8,10 @@
 //! Between the two stands [`Textbook::with_robust_shapes`]: the core's forms, but new rays that start a fixed distance above
 //! the surface.
 
-use scanray::{Background, Color, Material, MaterialDescription, Object, Ray, Scalar, Scene, Vec3};
+use scanray::formula::shading::power;
+use scanray::{
+    Background, Color, Material, MaterialDescription, Object, Ray, Real, Scalar, Scene, Vec3,
+};
 
 /// A ray tracer of textbook forms.
 #[derive(Clone, Copy, Debug)]
@@ -175,7 +178,7 @@ impl<'a, T: Scalar> Textbook<'a, T> {
                 };
                 let is_whole = whole_shininess != Material::<T>::FRACTIONAL;
                 let power = if self.has_robust_shapes && is_whole {
-                    base.powi(whole_shininess)
+                    power(Real(base), whole_shininess).0
                 } else {
                     base.powf(material.shininess)
                 };
@@ -237,6 +240,7 @@ impl<'a, T: Scalar> Textbook<'a, T> {
                     let (t, place) = triangle.intersect(&ray, T::MAX)?;
                     (t, triangle.surface_point(place))
                 }
+                _ => return None,
             };
             Some(Hit {
                 t,

@@ -1,9 +1,10 @@
 //! That the trees in other layouts have the objects of the scene's own, and that pictures by them are those of
 //! brute force, to the bit.
 
+use scanray::accel::{Accel, BvhNode, NodeContent};
 use scanray::{
-    Background, Camera, Color, Light, MaterialDescription, NodeContent, Resolution, Scene,
-    ScenePools, Tracer, Tree, TreeEntry, TreeNode, Vec3,
+    Background, Camera, Color, Light, MaterialDescription, Resolution, Scene, ScenePools, Tracer,
+    Vec3,
 };
 
 use super::wide::{WideChild, WideLeaf, WidePart, WideTree};
@@ -62,10 +63,7 @@ fn compare(name: &str, random: &Random, spheres: &[(Vec3, f32)], is_tree_expecte
     if is_tree_expected {
         check_layouts(name, scene);
     }
-    let by_brute_force = Scene {
-        tree: Tree::NONE,
-        ..scene
-    };
+    let by_brute_force = scene.without_accel();
     let resolution = Resolution {
         width: 20,
         height: 9,
@@ -231,23 +229,18 @@ fn a_tree_of_large_leaves_is_left_to_the_core() {
         filling.add_sphere(center, 0.2, material).unwrap();
     }
     let scene = pools.as_scene();
-    let entries: Vec<_> = (0..60).map(TreeEntry::sphere).collect();
+    let entries: Vec<_> = (0..60).collect();
     let all = NodeContent::Leaf {
         first: 0,
         count: 60,
     };
-    let nodes = [TreeNode::new(Vec3::splat(-9.0), Vec3::splat(9.0), all)];
-    let tree = Tree {
-        nodes: &nodes,
-        entries: &entries,
-    };
-    let tracer = Tracer::new(Scene { tree, ..scene })
-        .with_bvh()
-        .with_stack::<STACK>();
+    let nodes = [BvhNode::new(Vec3::splat(-9.0), Vec3::splat(9.0), all)];
+    let by_leaf = scene.with_accel(Accel::from_parts(&[], &[], &nodes, &entries, false));
+    let tracer = Tracer::new(by_leaf).with_bvh().with_stack::<STACK>();
     assert!(PacketTracer::new(tracer).tree.is_none());
     let resolution = Resolution {
         width: 40,
         height: 9,
     };
-    assert_same_as("one leaf", Scene { tree, ..scene }, scene, resolution, 1);
+    assert_same_as("one leaf", by_leaf, scene, resolution, 1);
 }

@@ -233,7 +233,7 @@ impl Record {
     }
 
     /// The colours of a tracer's picture; what must hold of every pixel is looked after.
-    pub(super) fn draw<T: Scalar, const NEEDS: u32, const STACK: usize>(
+    pub(super) fn draw<T: Scalar, const NEEDS: u64, const STACK: usize>(
         &mut self,
         tracer: &Tracer<'_, T, NEEDS, STACK>,
     ) -> Colors<T> {
@@ -253,7 +253,7 @@ impl Record {
     }
 
     /// The colour that a ray sees, looked after.
-    pub(super) fn see<T: Scalar, const NEEDS: u32, const STACK: usize>(
+    pub(super) fn see<T: Scalar, const NEEDS: u64, const STACK: usize>(
         &mut self,
         tracer: &Tracer<'_, T, NEEDS, STACK>,
         ray: Ray<T>,
@@ -266,7 +266,7 @@ impl Record {
     }
 
     /// A pixel, looked after and watched by somebody else, too.
-    pub(super) fn pixel_watched<T: Scalar, const NEEDS: u32, const STACK: usize>(
+    pub(super) fn pixel_watched<T: Scalar, const NEEDS: u64, const STACK: usize>(
         &mut self,
         tracer: &Tracer<'_, T, NEEDS, STACK>,
         (x, y): (u16, u16),
@@ -277,7 +277,7 @@ impl Record {
         color
     }
 
-    fn watch<T: Scalar, const NEEDS: u32, const STACK: usize>(
+    fn watch<T: Scalar, const NEEDS: u64, const STACK: usize>(
         &mut self,
         tracer: &Tracer<'_, T, NEEDS, STACK>,
         color: Color<T>,
@@ -291,7 +291,7 @@ impl Record {
 
     /// Traces a ray without the rays that hardly show: it sees no more than this colour, and at most one
     /// level of 8 bits less.
-    fn cut_off<T: Scalar, const NEEDS: u32, const STACK: usize>(
+    fn cut_off<T: Scalar, const NEEDS: u64, const STACK: usize>(
         &mut self,
         tracer: &Tracer<'_, T, NEEDS, STACK>,
         ray: Ray<T>,

@@ -966,7 +966,7 @@ fn power<T: Number>(base: T, exponent: f64) -> T {
     let whole = exponent as u32;
     let is_squared = f64::from(whole) == exponent && whole <= u32::from(T::MAX_SQUARED_EXPONENT);
     if is_squared {
-        base.powi(whole as u16)
+        scanray::formula::shading::power(scanray::Real(base), whole as u16).0
     } else {
         base.powf(T::from_f64(exponent))
     }
