@@ -141,10 +141,10 @@ impl<T: Scalar> AccelMut<'_, T> {
         if source.geometry.count() > self.sides.capacity() {
             return;
         }
-        for object in source.geometry.in_text_order() {
+        source.geometry.for_each(|_, object| {
             // There is room for all.
             let _ = self.sides.push(sides::sides(source, object));
-        }
+        });
         for plane in source.geometry.planes {
             if self
                 .grids
