@@ -8,7 +8,7 @@ use crate::light::Light;
 use crate::material::Material;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::shape::{Part, Primitive, Surface};
+use crate::shape::{ListedShape, Part, StoredEntry, Surface};
 use crate::vec3::Vec3;
 
 /// A scene as the source of a constant expression of type `Scene<'static, T>`.
@@ -98,6 +98,15 @@ impl<T: Scalar> fmt::Display for Baked<'_, Scene<'_, T>> {
         shapes(f, "spheres", geometry.spheres)?;
         shapes(f, "planes", geometry.planes)?;
         shapes(f, "triangles", geometry.triangles)?;
+        if !geometry.stored.entries.is_empty() {
+            writeln!(f, "    .with_stored(::scanray::shape::Stored::from_parts(")?;
+            list(f, "", geometry.stored.entries, ",")?;
+            writeln!(f, "    &[")?;
+            for number in geometry.stored.numbers {
+                writeln!(f, "        {},", Number(*number))?;
+            }
+            writeln!(f, "    ]))")?;
+        }
         list(f, ".with_materials(", scene.materials, ")")?;
         let accel = &scene.accel;
         writeln!(f, "    .with_accel(::scanray::accel::Accel::from_parts(")?;
@@ -111,7 +120,7 @@ impl<T: Scalar> fmt::Display for Baked<'_, Scene<'_, T>> {
 }
 
 /// The objects of one shape, if there are any.
-fn shapes<T: Scalar, P: Primitive<T>>(
+fn shapes<T: Scalar, P: ListedShape<T>>(
     f: &mut fmt::Formatter<'_>,
     name: &str,
     objects: &[P],
@@ -172,6 +181,21 @@ impl<T: Scalar> fmt::Display for Baked<'_, Color<T>> {
             Number(r),
             Number(g),
             Number(b)
+        )
+    }
+}
+
+impl fmt::Display for Baked<'_, StoredEntry> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let StoredEntry {
+            kind,
+            first,
+            surface,
+        } = self.0;
+        write!(
+            f,
+            "::scanray::shape::StoredEntry::from_parts(::scanray::shape::Kind::{kind:?}, {first}, {})",
+            Baked(surface)
         )
     }
 }

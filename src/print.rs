@@ -7,7 +7,7 @@ use crate::light::Light;
 use crate::material::MaterialDescription;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::shape::{Object, Plane, Surface};
+use crate::shape::{Kind, Object, Plane, Surface};
 use crate::vec3::Vec3;
 
 /// A scene as text in the numeric dialect, one record a line, every number with the fewest digits that read
@@ -37,6 +37,13 @@ pub fn print<'s, T: Scalar>(scene: &'s Scene<'_, T>) -> Result<impl fmt::Display
     if lights > 1 {
         return Err(PrintError::TooManyLights { lights });
     }
+    if let Some(kind) = scene
+        .objects()
+        .map(|object| object.kind())
+        .find(is_wordless)
+    {
+        return Err(PrintError::NoWord { kind });
+    }
     Ok(Text(scene))
 }
 
@@ -48,15 +55,29 @@ pub enum PrintError {
         /// How many there are.
         lights: usize,
     },
+    /// The dialect has no such shape.
+    NoWord {
+        /// The shape.
+        kind: Kind,
+    },
+}
+
+/// Whether the dialect has no word for a shape.
+fn is_wordless(kind: &Kind) -> bool {
+    !matches!(kind, Kind::Sphere | Kind::Plane | Kind::Triangle)
 }
 
 impl fmt::Display for PrintError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self::TooManyLights { lights } = self;
-        write!(
-            f,
-            "scene text has room for one light, and the scene has {lights}"
-        )
+        match self {
+            Self::TooManyLights { lights } => write!(
+                f,
+                "scene text has room for one light, and the scene has {lights}"
+            ),
+            Self::NoWord { kind } => {
+                write!(f, "the numeric dialect has no word for a {}", kind.name())
+            }
+        }
     }
 }
 
@@ -105,6 +126,8 @@ impl<T: Scalar> fmt::Display for Text<'_, T> {
                     }
                     write!(f, " {}", Numbers(&[T::ZERO; 4]))?;
                 }
+                // `print` has refused others.
+                _ => return Err(fmt::Error),
             }
             writeln!(f, " {}", Material(&scene.material(object.surface())))?;
         }

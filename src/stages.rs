@@ -65,6 +65,8 @@ stages! {
     SEVERAL_TRIANGLES = 15, "several triangles";
     /// More than one light.
     SEVERAL_LIGHTS = 16, "several lights";
+    /// Discs.
+    DISCS = 17, "discs";
 }
 
 impl Stages {
@@ -75,6 +77,9 @@ impl Stages {
     /// The bounding-volume hierarchy of a large scene: [`Tracer::with_bvh`](crate::Tracer::with_bvh). Pools have one only if they
     /// have room for it, so it is not in [`Stages::ALL`].
     pub const BVH: Self = Self(1 << 62);
+
+    /// Any of the shapes that are stored by their numbers.
+    pub(crate) const STORED_SHAPES: Self = Self::DISCS;
 
     /// No stage.
     pub const NONE: Self = Self(0);

@@ -36,7 +36,7 @@ use heapless::VecView;
 use crate::light::Light;
 use crate::material::Material;
 use crate::scalar::Scalar;
-use crate::shape::{Geometry, Object, Plane, Primitive, Sphere, Triangle, for_each_shape};
+use crate::shape::{Geometry, ListedShape, Object, Plane, Sphere, Triangle, for_each_shape};
 use crate::vec3::Vec3;
 
 /// What is derived from a scene, so that rays need not be tested against all of it. Without any of it the picture has the same
@@ -210,6 +210,12 @@ fn collect<T: Scalar>(
         };
     }
     for_each_shape!(among);
+    for (index, entry) in (first..END).zip(geometry.stored.entries) {
+        if geometry.stored.object(entry).is_some_and(&mut holds) {
+            set = set.with(index);
+        }
+    }
+    first += geometry.stored.entries.len();
     if first > END {
         // What is not told apart is in every set.
         set = set.with(END);

@@ -42,6 +42,8 @@ fn may_meet<T: Scalar>(from: Object<'_, T>, front: bool, other: Object<'_, T>) -
         // A flat object cannot meet itself.
         Object::Plane(_) => !is_same(from, other),
         Object::Triangle(triangle) => !is_same(from, other) && !lies_behind(triangle, front, other),
+        // What bounds alone tell is asked for all shapes.
+        _ => !(from.is_flat() && is_same(from, other)),
     }
 }
 
@@ -146,6 +148,9 @@ fn lies_behind<T: Scalar>(triangle: &Triangle<T>, front: bool, other: Object<'_,
             .vertices()
             .iter()
             .all(|vertex| is_behind(*vertex, T::ZERO)),
+        _ => other
+            .bounding_sphere()
+            .is_some_and(|ball| is_behind(ball.center, ball.radius)),
     }
 }
 
@@ -160,8 +165,8 @@ fn may_shade<T: Scalar>(
         return !is_same(from, other);
     };
     if is_same(from, other) {
-        // Only from inside a sphere does a ray towards the light meet the object it leaves.
-        return matches!(from, Object::Sphere(_)) && !front;
+        // Flat objects are not met by rays that leave them, nor convex ones from outside.
+        return !from.is_flat() && !(front && matches!(from, Object::Sphere(_)));
     }
     match (other, other.bounding_sphere()) {
         (Object::Plane(plane), _) => {

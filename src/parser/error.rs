@@ -86,7 +86,7 @@ pub enum Range {
     TriangleWithArea,
     /// Above 0, because the object refracts.
     RefractiveIndex,
-    /// Nothing that needs these stages, without which the pools are declared.
+    /// A number that does not need these stages, without which the pools are declared.
     Without(Stages),
 }
 
@@ -184,7 +184,11 @@ impl fmt::Display for Range {
                 "three points that are not on one line and not infinitely far apart"
             }
             Self::Without(stages) => {
-                return write!(f, "none: the pools are declared without {stages}");
+                let number = if *stages == Stages::BENDING { 1 } else { 0 };
+                return write!(
+                    f,
+                    "{number}, because the pools are declared without {stages}"
+                );
             }
             Self::RefractiveIndex => "a number above 0, because the refraction is above 0",
         })

@@ -26,6 +26,7 @@ use crate::material::MaterialDescription;
 use crate::pools::{Declared, Pool, PoolsMut, SceneError};
 use crate::scalar::Scalar;
 use crate::shape::ShapeError;
+use crate::stages::Stages;
 use crate::vec3::Vec3;
 
 /// Reads a scene into empty pools. After an error they hold a part of it.
@@ -171,7 +172,7 @@ fn read_object<T: Scalar + FromDecimal, D: Declared>(
             if !(radius.value > T::ZERO && (radius.value * radius.value).is_finite()) {
                 return Err(records.unfit("sphere's radius", Range::Radius, radius.word));
             }
-            let material = read_material(records)?;
+            let material = read_material::<T, D>(records)?;
             records.end()?;
             pools.add_sphere(center, radius.value, material)
         }
@@ -182,7 +183,7 @@ fn read_object<T: Scalar + FromDecimal, D: Declared>(
                 return Err(records.unfit("plane's normal", Range::Direction, geometry));
             }
             let distance = records.number("plane's distance", Range::Finite)?;
-            let material = read_material(records)?;
+            let material = read_material::<T, D>(records)?;
             records.end()?;
             let result = pools.add_plane(normal, distance.value, material);
             if let Err(SceneError::Shape(ShapeError::DistanceTooLarge)) = result {
@@ -204,7 +205,7 @@ fn read_object<T: Scalar + FromDecimal, D: Declared>(
             ] {
                 records.number::<T>(name, Range::Finite)?;
             }
-            let material = read_material(records)?;
+            let material = read_material::<T, D>(records)?;
             records.end()?;
             pools.add_triangle(vertices, material)
         }
@@ -221,38 +222,72 @@ fn read_object<T: Scalar + FromDecimal, D: Declared>(
     }
 }
 
-fn read_material<T: Scalar + FromDecimal>(
+fn read_material<T: Scalar + FromDecimal, D: Declared>(
     records: &mut Records<'_>,
 ) -> Result<MaterialDescription<T>, ParseError> {
+    // A number that needs what the pools are declared without.
+    let fits = |records: &Records<'_>, name, is_needed: bool, stage: Stages, word: &[u8]| {
+        if is_needed && !D::STAGES.contains(stage) {
+            return Err(records.unfit(name, Range::Without(stage), word));
+        }
+        Ok(())
+    };
     let diffuse = records.color([
         "red diffuse colour",
         "green diffuse colour",
         "blue diffuse colour",
     ])?;
-    let specular = records.color([
+    let word = records.peek_word();
+    let specular: Color<T> = records.color([
         "red specular colour",
         "green specular colour",
         "blue specular colour",
     ])?;
+    let shines = !specular.is_black();
+    fits(records, "specular colour", shines, Stages::SPECULAR, word)?;
     let ambient = records.color([
         "red ambient colour",
         "green ambient colour",
         "blue ambient colour",
     ])?;
-    let reflection = records.number("reflection", Range::NotNegative)?.value;
+    let reflection: Number<'_, T> = records.number("reflection", Range::NotNegative)?;
+    let reflects = reflection.value > T::ZERO;
+    fits(
+        records,
+        "reflection",
+        reflects,
+        Stages::REFLECTION,
+        reflection.word,
+    )?;
     let shininess = records.number("shininess", Range::NotNegative)?.value;
-    let refraction = records.number("refraction", Range::NotNegative)?.value;
-    let index = records.number("index of refraction", Range::NotNegative)?;
-    if refraction > T::ZERO && index.value == T::ZERO {
+    let refraction: Number<'_, T> = records.number("refraction", Range::NotNegative)?;
+    let refracts = refraction.value > T::ZERO;
+    fits(
+        records,
+        "refraction",
+        refracts,
+        Stages::REFRACTION,
+        refraction.word,
+    )?;
+    let index: Number<'_, T> = records.number("index of refraction", Range::NotNegative)?;
+    let bends = refracts && index.value != T::ONE;
+    fits(
+        records,
+        "index of refraction",
+        bends,
+        Stages::BENDING,
+        index.word,
+    )?;
+    if refracts && index.value == T::ZERO {
         return Err(records.unfit("index of refraction", Range::RefractiveIndex, index.word));
     }
     Ok(MaterialDescription {
         diffuse,
         specular,
         ambient,
-        reflection,
+        reflection: reflection.value,
         shininess,
-        refraction,
+        refraction: refraction.value,
         index_of_refraction: index.value,
     })
 }

@@ -6,9 +6,11 @@
 mod named;
 mod paper;
 
+use named::capacity_of;
 #[doc(hidden)]
 pub use named::{
-    AccelPools, accel_capacities, require_pool, stages_of_declaration, stages_of_pools,
+    AccelPools, InStored, PoolField, StoredPools, accel_capacities, require_pool,
+    stages_of_declaration, stages_of_pools, stored_capacities,
 };
 pub use paper::{Paper, ScenePools};
 
@@ -26,7 +28,10 @@ use crate::material::{Material, MaterialDescription};
 use crate::ray::ObjectNumber;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::shape::{Plane, Primitive, Shape, ShapeError, Sphere, Surface, Triangle};
+use crate::shape::{
+    Disc, Kind, Plane, Primitive, Shape, ShapeError, Sphere, Stored, StoredEntry, StoredShape,
+    Surface, Triangle,
+};
 use crate::stages::Stages;
 use crate::vec3::Vec3;
 
@@ -87,14 +92,17 @@ pub enum Pool {
     Materials,
     /// Lights.
     Lights,
+    /// Discs.
+    Discs,
 }
 
 impl Pool {
     /// All kinds: those of objects in the order of [`Kind::ALL`](crate::shape::Kind::ALL), then the others.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Spheres,
         Self::Planes,
         Self::Triangles,
+        Self::Discs,
         Self::Materials,
         Self::Lights,
     ];
@@ -107,6 +115,7 @@ impl Pool {
             Self::Triangles => "triangles",
             Self::Materials => "materials",
             Self::Lights => "lights",
+            Self::Discs => "discs",
         }
     }
 }
@@ -186,6 +195,10 @@ impl From<ShapeError> for SceneError {
 pub trait Declared {
     /// The stages that a scene in the pools can need.
     const STAGES: Stages;
+
+    /// The pools by name, and what they hold.
+    #[doc(hidden)]
+    const POOLS: &'static [(&'static str, usize)] = &[];
 }
 
 /// What a pool holds.
@@ -208,21 +221,28 @@ macro_rules! pool_entries {
         #[derive(Debug)]
         pub struct Lent<'p, T> {
             $($field: Option<&'p mut VecView<$entry<T>>>,)*
+            /// Objects that are stored by their numbers.
+            stored: Option<StoredMut<'p, T>>,
         }
 
         impl<T: Scalar> Lent<'_, T> {
             /// No pools.
-            pub const NONE: Self = Self { $($field: None,)* };
+            pub const NONE: Self = Self { $($field: None,)* stored: None };
 
             fn clear(&mut self) {
                 $(if let Some(pool) = &mut self.$field {
                     pool.clear();
                 })*
+                if let Some(stored) = &mut self.stored {
+                    stored.entries.clear();
+                    stored.numbers.clear();
+                }
             }
 
             /// Entries and room of a pool.
-            fn room(&self, pool: Pool) -> (usize, usize) {
+            fn room<D: Declared>(&self, pool: Pool) -> (usize, usize) {
                 match pool {
+                    Pool::Discs => self.stored_room::<D>(Kind::Disc, pool),
                     $(Pool::$pool => match &self.$field {
                         Some(pool) => (pool.len(), pool.capacity()),
                         None => (0, 0),
@@ -237,6 +257,12 @@ macro_rules! pool_entries {
                 $(if let Some(pool) = &self.$field {
                     scene = scene.$with(pool);
                 })*
+                if let Some(stored) = &self.stored {
+                    scene = scene.with_stored(Stored {
+                        entries: stored.entries,
+                        numbers: stored.numbers,
+                    });
+                }
                 scene
             }
         }
@@ -255,6 +281,25 @@ macro_rules! pool_entries {
     };
 }
 
+/// Objects that are stored by their numbers, without capacities.
+#[doc(hidden)]
+#[derive(Debug)]
+pub struct StoredMut<'p, T> {
+    entries: &'p mut VecView<StoredEntry>,
+    numbers: &'p mut VecView<T>,
+}
+
+impl<T: Scalar> Lent<'_, T> {
+    /// Objects of a stored kind, and for how many the pools were declared.
+    fn stored_room<D: Declared>(&self, kind: Kind, pool: Pool) -> (usize, usize) {
+        let used = self.stored.as_ref().map_or(0, |stored| {
+            let stored = Stored::<T>::from_parts(stored.entries, &[]);
+            stored.count_of(kind)
+        });
+        (used, capacity_of(D::POOLS, pool.name()))
+    }
+}
+
 pool_entries! {
     Sphere: Spheres, spheres, with_spheres;
     Plane: Planes, planes, with_planes;
@@ -266,12 +311,6 @@ pool_entries! {
 /// The entries of one pool.
 #[doc(hidden)]
 pub type Entries<E, const CAPACITY: usize> = heapless::Vec<E, CAPACITY>;
-
-/// Lends a pool without its capacity.
-#[doc(hidden)]
-pub fn lend<'p, T, E: PoolEntry<T>>(lent: &mut Lent<'p, T>, entries: &'p mut VecView<E>) {
-    *E::lent(lent) = Some(entries);
-}
 
 /// Pools of any capacity, borrowed to be filled. `D` is what they were declared for.
 ///
@@ -311,7 +350,11 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
     /// Loading a scene text does this; call it after changing a scene by hand.
     #[inline(always)]
     pub fn prepare(&mut self) {
-        let source = self.lent.scene(self.settings).source();
+        let mut source = self.lent.scene(self.settings).source();
+        if D::STAGES.without(Stages::STORED_SHAPES).bits() == D::STAGES.bits() {
+            // Known to the compiler, so that there is no code for them.
+            source.geometry.stored = Stored::NONE;
+        }
         self.accel.find_candidates(&source);
         // Not compiled for pools without room.
         if D::STAGES.contains(Stages::BVH) {
@@ -365,7 +408,7 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
     ///
     /// [`SceneError::PoolFull`].
     pub fn has_room(&self, pool: Pool) -> Result<(), SceneError> {
-        let (used, capacity) = self.lent.room(pool);
+        let (used, capacity) = self.lent.room::<D>(pool);
         if used < capacity {
             Ok(())
         } else {
@@ -399,6 +442,15 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
             Shape::Sphere { center, radius } => self.add_sphere(center, radius, material),
             Shape::Plane { normal, distance } => self.add_plane(normal, distance, material),
             Shape::Triangle(vertices) => self.add_triangle(vertices, material),
+            Shape::Disc {
+                center,
+                normal,
+                radius,
+            } => self.add_stored(
+                Pool::Discs,
+                |surface| Disc::new(center, normal, radius, surface),
+                material,
+            ),
         }
     }
 
@@ -456,6 +508,63 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
         push(&mut self.lent, object)
     }
 
+    /// [`PoolsMut::add_made`] of a shape that is stored by its numbers.
+    fn add_stored<P: StoredShape<T>>(
+        &mut self,
+        pool: Pool,
+        make: impl FnOnce(Surface) -> Result<P, ShapeError>,
+        material: MaterialDescription<T>,
+    ) -> Result<(), SceneError> {
+        self.has_room(pool)?;
+        let mut object = make(self.next_surface())?;
+        object.set_material(self.share(material)?);
+        self.accel.clear();
+        let full = SceneError::PoolFull {
+            pool,
+            capacity: capacity_of(D::POOLS, pool.name()),
+        };
+        // There is room for all that were declared.
+        let stored = self.lent.stored.as_mut().ok_or(full)?;
+        let first = stored.numbers.len();
+        for _ in 0..P::NUMBERS {
+            stored.numbers.push(T::ZERO).map_err(|_| full)?;
+        }
+        if let Some(numbers) = stored.numbers.get_mut(first..) {
+            object.write(numbers);
+        }
+        let entry = StoredEntry {
+            kind: P::KIND,
+            first: first as u32,
+            surface: object.surface(),
+        };
+        stored.entries.push(entry).map_err(|_| full)
+    }
+
+    /// [`PoolsMut::set_made`] of a shape that is stored by its numbers.
+    fn set_stored<P: StoredShape<T>>(
+        &mut self,
+        pool: Pool,
+        index: usize,
+        make: impl FnOnce(Surface) -> Result<P, ShapeError>,
+    ) -> Result<(), SceneError> {
+        let (used, _) = self.lent.room::<D>(pool);
+        let missing = SceneError::Missing { pool, index, used };
+        let stored = self.lent.stored.as_mut().ok_or(missing)?;
+        let entry = stored
+            .entries
+            .iter()
+            .filter(|entry| entry.kind == P::KIND)
+            .nth(index)
+            .ok_or(missing)?;
+        let object = make(entry.surface)?;
+        let first = entry.first as usize;
+        if let Some(numbers) = stored.numbers.get_mut(first..first + P::NUMBERS) {
+            object.write(numbers);
+        }
+        self.accel.clear();
+        Ok(())
+    }
+
     /// Puts another shape in the place of an object, by its index among those of the shape's kind. Material and index stay.
     ///
     /// # Errors
@@ -466,6 +575,13 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
             Shape::Sphere { center, radius } => self.set_sphere(index, center, radius),
             Shape::Plane { normal, distance } => self.set_plane(index, normal, distance),
             Shape::Triangle(vertices) => self.set_triangle(index, vertices),
+            Shape::Disc {
+                center,
+                normal,
+                radius,
+            } => self.set_stored(Pool::Discs, index, |surface| {
+                Disc::new(center, normal, radius, surface)
+            }),
         }
     }
 

@@ -2,8 +2,11 @@
 
 use heapless::Vec;
 
+use super::{Lent, PoolEntry, StoredMut};
 use crate::accel::{Accel, AccelMut, Bvh, BvhNode, Candidates, ObjectSet, PlaneGrid};
 use crate::scalar::Scalar;
+use crate::scene::Scene;
+use crate::shape::{Disc, Stored, StoredEntry, StoredShape};
 use crate::stages::Stages;
 
 /// Declares a type of pools for one scene, by the names of what a scene in them may hold.
@@ -58,7 +61,12 @@ macro_rules! scene_pools {
         #[derive(Clone, Debug)]
         $visibility struct $name {
             settings: $crate::pools::Settings<$scalar>,
-            $($pool: $crate::pools::Entries<$crate::entry_of_pool!($pool, $scalar), { $capacity }>,)+
+            $($pool: $crate::field_of_pool!($pool, $scalar, { $capacity }),)+
+            stored: $crate::pools::StoredPools<
+                $scalar,
+                { $name::STORED[0] },
+                { $name::STORED[1] },
+            >,
             accel: $crate::pools::AccelPools<
                 $scalar,
                 { $name::ACCEL[0] },
@@ -71,6 +79,7 @@ macro_rules! scene_pools {
         impl $name {
             const POOLS: &[(&str, usize)] = &[$((stringify!($pool), { $capacity })),+];
             const LEFT_OUT: &[&str] = &[$($(stringify!($left_out)),+)?];
+            const STORED: [usize; 2] = $crate::pools::stored_capacities(Self::POOLS);
             const ACCEL: [usize; 3] = $crate::pools::accel_capacities(Self::POOLS, Self::LEFT_OUT);
 
             /// The stages that a scene in these pools can need.
@@ -83,7 +92,9 @@ macro_rules! scene_pools {
             pub const fn new() -> Self {
                 Self {
                     settings: $crate::pools::Settings::EMPTY,
-                    $($pool: $crate::pools::Entries::new(),)+
+                    $($pool: <$crate::field_of_pool!($pool, $scalar, { $capacity })
+                        as $crate::pools::PoolField<$scalar>>::NEW,)+
+                    stored: $crate::pools::StoredPools::new(),
                     accel: $crate::pools::AccelPools::new(),
                 }
             }
@@ -91,14 +102,15 @@ macro_rules! scene_pools {
             /// The scene in the pools.
             pub fn as_scene(&self) -> $crate::Scene<'_, $scalar> {
                 let scene = self.settings.scene();
-                $(let scene = $crate::pools::PoolEntry::put(scene, &self.$pool);)+
-                scene.with_accel(self.accel.as_accel())
+                $(let scene = $crate::pools::PoolField::put(&self.$pool, scene);)+
+                scene.with_stored(self.stored.as_stored()).with_accel(self.accel.as_accel())
             }
 
             /// The pools without their capacities in the type, to be filled.
             pub fn as_mut(&mut self) -> $crate::pools::PoolsMut<'_, $scalar, Self> {
                 let mut lent = $crate::pools::Lent::NONE;
-                $($crate::pools::lend(&mut lent, &mut self.$pool);)+
+                $($crate::pools::PoolField::lend(&mut self.$pool, &mut lent);)+
+                self.stored.lend(&mut lent);
                 $crate::pools::PoolsMut::new(&mut self.settings, lent, self.accel.as_mut())
             }
 
@@ -119,6 +131,7 @@ macro_rules! scene_pools {
 
         impl $crate::pools::Declared for $name {
             const STAGES: $crate::Stages = Self::STAGES;
+            const POOLS: &'static [(&'static str, usize)] = Self::POOLS;
         }
 
         impl ::core::default::Default for $name {
@@ -129,20 +142,31 @@ macro_rules! scene_pools {
     };
 }
 
-/// What a pool of this name holds.
+/// The field of a pool of this name.
 #[doc(hidden)]
 #[macro_export]
-macro_rules! entry_of_pool {
-    (spheres, $scalar:ty) => { $crate::shape::Sphere<$scalar> };
-    (planes, $scalar:ty) => { $crate::shape::Plane<$scalar> };
-    (triangles, $scalar:ty) => { $crate::shape::Triangle<$scalar> };
-    (materials, $scalar:ty) => { $crate::Material<$scalar> };
-    (lights, $scalar:ty) => { $crate::Light<$scalar> };
-    ($other:ident, $scalar:ty) => {
+macro_rules! field_of_pool {
+    (spheres, $scalar:ty, $capacity:expr) => {
+        $crate::pools::Entries<$crate::shape::Sphere<$scalar>, $capacity>
+    };
+    (planes, $scalar:ty, $capacity:expr) => {
+        $crate::pools::Entries<$crate::shape::Plane<$scalar>, $capacity>
+    };
+    (triangles, $scalar:ty, $capacity:expr) => {
+        $crate::pools::Entries<$crate::shape::Triangle<$scalar>, $capacity>
+    };
+    (materials, $scalar:ty, $capacity:expr) => {
+        $crate::pools::Entries<$crate::Material<$scalar>, $capacity>
+    };
+    (lights, $scalar:ty, $capacity:expr) => {
+        $crate::pools::Entries<$crate::Light<$scalar>, $capacity>
+    };
+    (discs, $scalar:ty, $capacity:expr) => { $crate::pools::InStored };
+    ($other:ident, $scalar:ty, $capacity:expr) => {
         compile_error!(concat!(
             "there is no pool `",
             stringify!($other),
-            "`: name spheres, planes, triangles, materials or lights"
+            "`: name spheres, planes, triangles, discs, materials or lights"
         ))
     };
 }
@@ -170,6 +194,90 @@ macro_rules! parse_into_pools {
 #[macro_export]
 macro_rules! parse_into_pools {
     () => {};
+}
+
+/// The field of a pool.
+#[doc(hidden)]
+pub trait PoolField<T> {
+    /// Empty.
+    const NEW: Self;
+
+    /// The scene with what is in the pool.
+    fn put<'a>(&'a self, scene: Scene<'a, T>) -> Scene<'a, T>;
+
+    /// Lends the pool without its capacity.
+    fn lend<'p>(&'p mut self, lent: &mut Lent<'p, T>);
+}
+
+impl<T, E: PoolEntry<T>, const CAPACITY: usize> PoolField<T> for Vec<E, CAPACITY> {
+    const NEW: Self = Self::new();
+
+    fn put<'a>(&'a self, scene: Scene<'a, T>) -> Scene<'a, T> {
+        E::put(scene, self)
+    }
+
+    fn lend<'p>(&'p mut self, lent: &mut Lent<'p, T>) {
+        *E::lent(lent) = Some(self);
+    }
+}
+
+/// The field of a pool whose objects are stored by their numbers, in [`StoredPools`].
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub struct InStored;
+
+impl<T> PoolField<T> for InStored {
+    const NEW: Self = Self;
+
+    fn put<'a>(&'a self, scene: Scene<'a, T>) -> Scene<'a, T> {
+        scene
+    }
+
+    fn lend<'p>(&'p mut self, _: &mut Lent<'p, T>) {}
+}
+
+/// Room for objects of all shapes that are stored by their numbers.
+#[doc(hidden)]
+#[derive(Clone, Debug)]
+pub struct StoredPools<T, const ENTRIES: usize, const NUMBERS: usize> {
+    entries: Vec<StoredEntry, ENTRIES>,
+    numbers: Vec<T, NUMBERS>,
+}
+
+impl<T: Scalar, const ENTRIES: usize, const NUMBERS: usize> StoredPools<T, ENTRIES, NUMBERS> {
+    /// No objects.
+    pub const fn new() -> Self {
+        Self {
+            entries: Vec::new(),
+            numbers: Vec::new(),
+        }
+    }
+
+    /// The objects.
+    pub fn as_stored(&self) -> Stored<'_, T> {
+        Stored {
+            entries: &self.entries,
+            numbers: &self.numbers,
+        }
+    }
+
+    /// Lends the room, if there is any.
+    pub fn lend<'p>(&'p mut self, lent: &mut Lent<'p, T>) {
+        if const { ENTRIES > 0 } {
+            lent.stored = Some(StoredMut {
+                entries: &mut self.entries,
+                numbers: &mut self.numbers,
+            });
+        }
+    }
+}
+
+impl<T: Scalar, const ENTRIES: usize, const NUMBERS: usize> Default
+    for StoredPools<T, ENTRIES, NUMBERS>
+{
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 /// Room for what is derived from a scene.
@@ -231,7 +339,7 @@ impl<T: Scalar, const SIDES: usize, const GRIDS: usize, const BVH: usize> Defaul
 }
 
 /// A pool of objects, and the stages of one and of several. Objects of bounded shapes can be in a hierarchy.
-const SHAPES: [(&str, Stages, Stages, bool); 3] = [
+const SHAPES: [(&str, Stages, Stages, bool); 4] = [
     ("spheres", Stages::SPHERES, Stages::SEVERAL_SPHERES, true),
     ("planes", Stages::PLANES, Stages::SEVERAL_PLANES, false),
     (
@@ -240,10 +348,28 @@ const SHAPES: [(&str, Stages, Stages, bool); 3] = [
         Stages::SEVERAL_TRIANGLES,
         true,
     ),
+    ("discs", Stages::DISCS, Stages::NONE, true),
 ];
 
+/// The pools of shapes that are stored, and how many numbers each object has.
+const STORED: [(&str, usize); 1] = [("discs", <Disc as StoredShape<f32>>::NUMBERS)];
+
+/// Objects that are stored by their numbers, and their numbers, that there is to be room for.
+#[doc(hidden)]
+pub const fn stored_capacities(pools: &[(&str, usize)]) -> [usize; 2] {
+    let (mut entries, mut numbers) = (0, 0);
+    let mut i = 0;
+    while i < STORED.len() {
+        let capacity = capacity_of(pools, STORED[i].0);
+        entries += capacity;
+        numbers += capacity * STORED[i].1;
+        i += 1;
+    }
+    [entries, numbers]
+}
+
 /// What the word of a pool is declared with; 0 if it is not.
-const fn capacity_of(pools: &[(&str, usize)], word: &str) -> usize {
+pub(super) const fn capacity_of(pools: &[(&str, usize)], word: &str) -> usize {
     let mut i = 0;
     while i < pools.len() {
         if is_word(pools[i].0, word) {

@@ -15,7 +15,7 @@ use crate::stages::Stages;
 pub struct Paper;
 
 impl Declared for Paper {
-    const STAGES: Stages = Stages::ALL;
+    const STAGES: Stages = Stages::ALL.without(Stages::STORED_SHAPES);
 }
 
 /// The same, and a hierarchy of large scenes.
@@ -23,7 +23,7 @@ impl Declared for Paper {
 struct PaperWithBvh;
 
 impl Declared for PaperWithBvh {
-    const STAGES: Stages = Stages::ALL.union(Stages::BVH);
+    const STAGES: Stages = Paper::STAGES.union(Stages::BVH);
 }
 
 /// Pools for one scene of the numeric dialect, in RAM: a `static`, a local or a field.
@@ -118,6 +118,7 @@ impl<
             triangles: Some(&mut self.triangles),
             materials: Some(&mut self.materials),
             lights: Some(&mut self.lights),
+            stored: None,
         };
         PoolsMut::new(&mut self.settings, lent, self.accel.as_mut())
     }

@@ -9,7 +9,7 @@ use crate::color::Color;
 use crate::light::Light;
 use crate::material::{Material, MaterialDescription};
 use crate::scalar::Scalar;
-use crate::shape::{Geometry, Object, Plane, Sphere, Surface, Triangle};
+use crate::shape::{Geometry, Object, Plane, Sphere, Stored, Surface, Triangle};
 use crate::vec3::Vec3;
 
 /// A view of a scene in [`ScenePools`](crate::ScenePools) or in flash; copying it copies no object.
@@ -125,6 +125,14 @@ impl<'a, T: Scalar> Scene<'a, T> {
     #[must_use]
     pub const fn with_triangles(mut self, triangles: &'a [Triangle<T>]) -> Self {
         self.geometry.triangles = triangles;
+        self.without_accel()
+    }
+
+    /// For baked scenes: the objects of the shapes that few scenes have; drops what was derived.
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn with_stored(mut self, stored: Stored<'a, T>) -> Self {
+        self.geometry.stored = stored;
         self.without_accel()
     }
 

@@ -11,13 +11,9 @@ macro_rules! needs_of_scene {
             /// The stages this scene needs; found at compile time for a `static` scene.
             pub const fn needs(&self) -> Stages {
                 let objects = self.geometry.count();
-                let mut needs = Stages::NONE
-                    .with_if(Stages::SPHERES, !self.geometry.spheres.is_empty())
-                    .with_if(Stages::PLANES, !self.geometry.planes.is_empty())
-                    .with_if(Stages::TRIANGLES, !self.geometry.triangles.is_empty())
-                    .with_if(Stages::SEVERAL_SPHERES, self.geometry.spheres.len() > 1)
-                    .with_if(Stages::SEVERAL_PLANES, self.geometry.planes.len() > 1)
-                    .with_if(Stages::SEVERAL_TRIANGLES, self.geometry.triangles.len() > 1)
+                let mut needs = self
+                    .geometry
+                    .stages()
                     .with_if(Stages::BVH, self.accel.bvh.is_some())
                     .with_if(Stages::MANY_OBJECTS, objects > ObjectSet::TOLD_APART)
                     .with_if(Stages::SKY, self.background.sky)

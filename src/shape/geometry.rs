@@ -1,7 +1,11 @@
 //! The objects of a scene: borrowed slices, one for each shape.
 
-use super::{Kind, Object, Plane, Primitive, Sphere, Triangle, for_each_shape};
+use super::{
+    Disc, Kind, ListedShape, Object, Plane, Primitive, Sphere, Stored, Triangle, for_each_shape,
+    for_each_stored_shape,
+};
 use crate::scalar::Scalar;
+use crate::stages::Stages;
 
 /// The objects of a scene, kind by kind.
 ///
@@ -15,6 +19,8 @@ pub struct Geometry<'a, T = f32> {
     pub planes: &'a [Plane<T>],
     /// Triangles.
     pub triangles: &'a [Triangle<T>],
+    /// Objects of the shapes that few scenes have.
+    pub stored: Stored<'a, T>,
 }
 
 impl<T> Geometry<'_, T> {
@@ -23,11 +29,12 @@ impl<T> Geometry<'_, T> {
         spheres: &[],
         planes: &[],
         triangles: &[],
+        stored: Stored::NONE,
     };
 
     /// Number of objects of all kinds.
     pub const fn count(&self) -> usize {
-        self.spheres.len() + self.planes.len() + self.triangles.len()
+        self.spheres.len() + self.planes.len() + self.triangles.len() + self.stored.entries.len()
     }
 }
 
@@ -35,7 +42,12 @@ impl<'a, T: Scalar> Geometry<'a, T> {
     /// Number of objects of a kind.
     pub fn count_of(&self, kind: Kind) -> usize {
         macro_rules! counts {
-            ([$($shape:ident)*]) => { match kind { $(Kind::$shape => $shape::all(self).len(),)* } };
+            ([$($shape:ident)*]) => {
+                match kind {
+                    $(Kind::$shape => $shape::all(self).len(),)*
+                    _ => self.stored.count_of(kind),
+                }
+            };
         }
         for_each_shape!(counts)
     }
@@ -55,8 +67,7 @@ impl<'a, T: Scalar> Geometry<'a, T> {
             };
         }
         for_each_shape!(among);
-        let _ = index;
-        None
+        self.stored.object(self.stored.entries.get(index)?)
     }
 
     /// Whether there is an object of an index that a ray which leaves it cannot hit again.
@@ -74,8 +85,15 @@ impl<'a, T: Scalar> Geometry<'a, T> {
             };
         }
         for_each_shape!(among);
-        let _ = index;
-        false
+        macro_rules! among_stored {
+            ([$($shape:ident)*]) => {
+                match self.stored.entries.get(index).map(|entry| entry.kind) {
+                    $(Some(Kind::$shape) => <$shape<T> as Primitive<T>>::IS_FLAT,)*
+                    _ => false,
+                }
+            };
+        }
+        for_each_stored_shape!(among_stored)
     }
 
     /// Calls a function with each object and its index, in their order.
@@ -92,14 +110,20 @@ impl<'a, T: Scalar> Geometry<'a, T> {
             };
         }
         for_each_shape!(visit);
-        let _ = index;
+        for entry in self.stored.entries {
+            if let Some(object) = self.stored.object(entry) {
+                each(index, object);
+            }
+            index += 1;
+        }
     }
 
     /// The objects of all kinds, in the order of the text.
     pub fn in_text_order(&self) -> impl Iterator<Item = Object<'a, T>> + use<'a, T> {
         let geometry = *self;
-        // How many of each kind have been told.
+        // How many of each listed kind have been told, and of the stored ones.
         let mut told = [0_usize; Kind::COUNT];
+        let mut stored = 0;
         core::iter::from_fn(move || {
             let mut next = None::<Object<'a, T>>;
             macro_rules! earliest {
@@ -114,9 +138,29 @@ impl<'a, T: Scalar> Geometry<'a, T> {
                 };
             }
             for_each_shape!(earliest);
+            if let Some(entry) = geometry.stored.entries.get(stored)
+                && next.is_none_or(|next| entry.surface.number < next.surface().number)
+            {
+                stored += 1;
+                return geometry.stored.object(entry);
+            }
             let next = next?;
             told[next.kind().index()] += 1;
             Some(next)
         })
+    }
+}
+
+impl<T> Geometry<'_, T> {
+    /// The stages that draw these objects.
+    pub const fn stages(&self) -> Stages {
+        Stages::NONE
+            .with_if(Stages::SPHERES, !self.spheres.is_empty())
+            .with_if(Stages::PLANES, !self.planes.is_empty())
+            .with_if(Stages::TRIANGLES, !self.triangles.is_empty())
+            .with_if(Stages::SEVERAL_SPHERES, self.spheres.len() > 1)
+            .with_if(Stages::SEVERAL_PLANES, self.planes.len() > 1)
+            .with_if(Stages::SEVERAL_TRIANGLES, self.triangles.len() > 1)
+            .with_if(Stages::DISCS, self.stored.count_of(Kind::Disc) > 0)
     }
 }

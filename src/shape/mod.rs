@@ -8,14 +8,19 @@
 //! that a distance always is; NaN anywhere is a miss.
 
 mod coarse;
+mod disc;
 mod geometry;
 mod plane;
 mod sphere;
+mod stored;
 mod triangle;
 
+pub use disc::Disc;
 pub use geometry::Geometry;
 pub use plane::Plane;
 pub use sphere::Sphere;
+pub(crate) use stored::StoredShape;
+pub use stored::{Stored, StoredEntry};
 pub use triangle::{Barycentric, Triangle};
 
 use core::fmt;
@@ -25,8 +30,8 @@ use crate::scalar::Scalar;
 use crate::stages::Stages;
 use crate::vec3::Vec3;
 
-/// The one list of the shapes: calls a macro with it. Of two objects at exactly the same distance the kind that comes first
-/// here is hit.
+/// The shapes that have slices of their own in every scene: calls a macro with their list. Of two objects at exactly the same
+/// distance the kind that comes first here is hit, and those of [`for_each_stored_shape!`] come last.
 macro_rules! for_each_shape {
     ($then:ident $($with:tt)*) => {
         $then! { [Sphere Plane Triangle] $($with)* }
@@ -34,17 +39,35 @@ macro_rules! for_each_shape {
 }
 pub(crate) use for_each_shape;
 
+/// The shapes that are [`Stored`] by their numbers: calls a macro with their list.
+macro_rules! for_each_stored_shape {
+    ($then:ident $($with:tt)*) => {
+        $then! { [Disc] $($with)* }
+    };
+}
+pub(crate) use for_each_stored_shape;
+
 /// Of an object of any shape what all have: `of_any_shape!(object, it => it.material())`.
 macro_rules! of_any_shape {
     ($object:expr, $it:ident => $call:expr) => {
-        $crate::shape::for_each_shape!(match_shape $object, $it => $call)
+        $crate::shape::for_each_shape!(match_shape_with_stored $object, $it => $call)
+    };
+}
+
+/// Both lists for [`of_any_shape`].
+macro_rules! match_shape_with_stored {
+    ([$($shape:ident)*] $($with:tt)*) => {
+        for_each_stored_shape!(match_shape [$($shape)*] $($with)*)
     };
 }
 
 /// The arms of [`of_any_shape`].
 macro_rules! match_shape {
-    ([$($shape:ident)*] $object:expr, $it:ident => $call:expr) => {
-        match $object { $($crate::shape::Object::$shape($it) => $call,)* }
+    ([$($stored:ident)*] [$($shape:ident)*] $object:expr, $it:ident => $call:expr) => {
+        match $object {
+            $(Object::$shape($it) => { let $it = *$it; $call })*
+            $(Object::$stored($it) => $call,)*
+        }
     };
 }
 
@@ -58,14 +81,16 @@ pub enum Kind {
     Plane,
     /// Triangles.
     Triangle,
+    /// Discs.
+    Disc,
 }
 
 impl Kind {
     /// All kinds, in the order of the indices of objects.
-    pub const ALL: [Self; Self::COUNT] = [Self::Sphere, Self::Plane, Self::Triangle];
+    pub const ALL: [Self; Self::COUNT] = [Self::Sphere, Self::Plane, Self::Triangle, Self::Disc];
 
     /// How many kinds there are.
-    pub const COUNT: usize = 3;
+    pub const COUNT: usize = 4;
 
     /// Its place in [`Kind::ALL`].
     pub const fn index(self) -> usize {
@@ -78,6 +103,7 @@ impl Kind {
             Self::Sphere => "sphere",
             Self::Plane => "plane",
             Self::Triangle => "triangle",
+            Self::Disc => "disc",
         }
     }
 }
@@ -92,6 +118,8 @@ pub enum Object<'a, T = f32> {
     Plane(&'a Plane<T>),
     /// A triangle.
     Triangle(&'a Triangle<T>),
+    /// A disc.
+    Disc(Disc<T>),
 }
 
 /// What an object is, in the numbers that describe it: what parsers, printers and programs hand on.
@@ -114,6 +142,15 @@ pub enum Shape<T = f32> {
     },
     /// Three vertices and what is between them; the normal is `normalize((v3 − v1) × (v2 − v1))`.
     Triangle([Vec3<T>; 3]),
+    /// The points of a plane that are not farther than a radius from a centre.
+    Disc {
+        /// Centre.
+        center: Vec3<T>,
+        /// Normal, of any length but 0.
+        normal: Vec3<T>,
+        /// Radius, above 0; its square must be finite.
+        radius: T,
+    },
 }
 
 /// How the numbers of a shape are changed: moved, turned, scaled, mirrored, rounded to another scalar.
@@ -149,6 +186,15 @@ impl<T: Scalar> Shape<T> {
             Self::Triangle([v1, v2, v3]) => {
                 Shape::Triangle([by.point(v1), by.point(v2), by.point(v3)])
             }
+            Self::Disc {
+                center,
+                normal,
+                radius,
+            } => Shape::Disc {
+                center: by.point(center),
+                normal: by.normal(normal),
+                radius: by.length(radius),
+            },
         }
     }
 }
@@ -160,6 +206,7 @@ impl<T> Shape<T> {
             Self::Sphere { .. } => Kind::Sphere,
             Self::Plane { .. } => Kind::Plane,
             Self::Triangle(_) => Kind::Triangle,
+            Self::Disc { .. } => Kind::Disc,
         }
     }
 }
@@ -179,15 +226,10 @@ pub(crate) trait Primitive<T: Scalar>: Copy {
     const KIND: Kind;
     /// The stage that draws it.
     const STAGE: Stages;
-    /// The stage that draws more than one of it.
-    const SEVERAL: Stages;
     /// A ray that leaves it cannot hit it again, whatever rounding says.
     const IS_FLAT: bool;
     /// [`Primitive::point`] needs the place that [`Primitive::hit`] tells.
     const HAS_PLACE: bool;
-
-    /// All of this kind.
-    fn all<'a>(geometry: &Geometry<'a, T>) -> &'a [Self];
 
     /// The object in general.
     fn object(&self) -> Object<'_, T>;
@@ -215,6 +257,15 @@ pub(crate) trait Primitive<T: Scalar>: Copy {
 
     /// The point of a hit, projected back onto the surface.
     fn point(&self, ray: &Ray<T>, t: T, place: Barycentric<T>) -> SurfacePoint<T>;
+}
+
+/// A shape that has a slice of its own in every scene.
+pub(crate) trait ListedShape<T: Scalar>: Primitive<T> {
+    /// The stage that draws more than one of it.
+    const SEVERAL: Stages;
+
+    /// All of this kind.
+    fn all<'a>(geometry: &Geometry<'a, T>) -> &'a [Self];
 
     /// Name of its type, and the arguments of its `from_parts` but the last, for baked scenes.
     #[cfg(feature = "bake")]
@@ -247,12 +298,20 @@ impl<T: Scalar> Object<'_, T> {
 
     /// What describes it.
     pub fn shape(&self) -> Shape<T> {
-        of_any_shape!(self, it => Primitive::shape(*it))
+        of_any_shape!(self, it => Primitive::shape(it))
     }
 
     /// The lowest and the highest coordinates of what rays can hit; `None` if it is unbounded.
     pub fn bounding_box(&self) -> Option<[Vec3<T>; 2]> {
-        of_any_shape!(self, it => Primitive::bounding_box(*it))
+        of_any_shape!(self, it => Primitive::bounding_box(it))
+    }
+
+    /// Whether a ray that leaves it cannot hit it again.
+    pub(crate) fn is_flat(&self) -> bool {
+        fn is_flat<T: Scalar, P: Primitive<T>>(_: &P) -> bool {
+            P::IS_FLAT
+        }
+        of_any_shape!(self, it => is_flat(it))
     }
 
     /// Whether it has a bounding box.
@@ -262,7 +321,7 @@ impl<T: Scalar> Object<'_, T> {
 
     /// A ball around it; `None` if it is unbounded, or as good as that.
     pub fn bounding_sphere(&self) -> Option<BoundingSphere<T>> {
-        of_any_shape!(self, it => Primitive::bounding_sphere(*it))
+        of_any_shape!(self, it => Primitive::bounding_sphere(it))
     }
 }
 
@@ -306,9 +365,9 @@ pub enum ShapeError {
 impl fmt::Display for ShapeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::RadiusNotPositive => "a sphere's radius must be greater than 0",
-            Self::RadiusTooLarge => "the square of a sphere's radius must be finite",
-            Self::NormalZero => "a plane's normal must have a length",
+            Self::RadiusNotPositive => "a radius must be greater than 0",
+            Self::RadiusTooLarge => "the square of a radius must be finite",
+            Self::NormalZero => "a normal must have a length",
             Self::DistanceTooLarge => {
                 "a plane's distance divided by the length of its normal must be finite"
             }

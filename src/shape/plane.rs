@@ -1,8 +1,8 @@
 //! Infinite planes.
 
 use super::{
-    Barycentric, BoundingSphere, Geometry, Kind, Object, Primitive, Shape, ShapeError, Surface,
-    SurfacePoint,
+    Barycentric, BoundingSphere, Geometry, Kind, ListedShape, Object, Primitive, Shape, ShapeError,
+    Surface, SurfacePoint,
 };
 use crate::formula;
 use crate::ray::Ray;
@@ -107,14 +107,8 @@ impl<T: Scalar> Plane<T> {
 impl<T: Scalar> Primitive<T> for Plane<T> {
     const KIND: Kind = Kind::Plane;
     const STAGE: Stages = Stages::PLANES;
-    const SEVERAL: Stages = Stages::SEVERAL_PLANES;
     const IS_FLAT: bool = true;
     const HAS_PLACE: bool = false;
-
-    #[inline(always)]
-    fn all<'a>(geometry: &Geometry<'a, T>) -> &'a [Self] {
-        geometry.planes
-    }
 
     #[inline(always)]
     fn object(&self) -> Object<'_, T> {
@@ -158,6 +152,15 @@ impl<T: Scalar> Primitive<T> for Plane<T> {
     #[inline(always)]
     fn point(&self, ray: &Ray<T>, t: T, _: Barycentric<T>) -> SurfacePoint<T> {
         self.surface_point(ray, t)
+    }
+}
+
+impl<T: Scalar> ListedShape<T> for Plane<T> {
+    const SEVERAL: Stages = Stages::SEVERAL_PLANES;
+
+    #[inline(always)]
+    fn all<'a>(geometry: &Geometry<'a, T>) -> &'a [Self] {
+        geometry.planes
     }
 
     #[cfg(feature = "bake")]

@@ -2,8 +2,8 @@
 
 use super::coarse::Sighting;
 use super::{
-    Barycentric, BoundingSphere, Geometry, Kind, Object, Primitive, Shape, ShapeError, Surface,
-    SurfacePoint,
+    Barycentric, BoundingSphere, Geometry, Kind, ListedShape, Object, Primitive, Shape, ShapeError,
+    Surface, SurfacePoint,
 };
 use crate::formula::{self, origin_offset};
 use crate::ray::Ray;
@@ -176,14 +176,8 @@ impl<T: Scalar> Sphere<T> {
 impl<T: Scalar> Primitive<T> for Sphere<T> {
     const KIND: Kind = Kind::Sphere;
     const STAGE: Stages = Stages::SPHERES;
-    const SEVERAL: Stages = Stages::SEVERAL_SPHERES;
     const IS_FLAT: bool = false;
     const HAS_PLACE: bool = false;
-
-    #[inline(always)]
-    fn all<'a>(geometry: &Geometry<'a, T>) -> &'a [Self] {
-        geometry.spheres
-    }
 
     #[inline(always)]
     fn object(&self) -> Object<'_, T> {
@@ -231,6 +225,15 @@ impl<T: Scalar> Primitive<T> for Sphere<T> {
     #[inline(always)]
     fn point(&self, ray: &Ray<T>, t: T, _: Barycentric<T>) -> SurfacePoint<T> {
         self.surface_point(ray, t)
+    }
+}
+
+impl<T: Scalar> ListedShape<T> for Sphere<T> {
+    const SEVERAL: Stages = Stages::SEVERAL_SPHERES;
+
+    #[inline(always)]
+    fn all<'a>(geometry: &Geometry<'a, T>) -> &'a [Self] {
+        geometry.spheres
     }
 
     #[cfg(feature = "bake")]

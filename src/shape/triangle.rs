@@ -2,8 +2,8 @@
 
 use super::coarse::Sighting;
 use super::{
-    BoundingSphere, Geometry, Kind, Object, Primitive, Shape, ShapeError, Surface, SurfacePoint,
-    extent,
+    BoundingSphere, Geometry, Kind, ListedShape, Object, Primitive, Shape, ShapeError, Surface,
+    SurfacePoint, extent,
 };
 use crate::formula::triangle::{Shear, edge, interpolate, point, product_error, reach, slack};
 use crate::formula::{origin_offset, sphere::closest_approach};
@@ -237,14 +237,8 @@ impl<T: Scalar> Triangle<T> {
 impl<T: Scalar> Primitive<T> for Triangle<T> {
     const KIND: Kind = Kind::Triangle;
     const STAGE: Stages = Stages::TRIANGLES;
-    const SEVERAL: Stages = Stages::SEVERAL_TRIANGLES;
     const IS_FLAT: bool = true;
     const HAS_PLACE: bool = true;
-
-    #[inline(always)]
-    fn all<'a>(geometry: &Geometry<'a, T>) -> &'a [Self] {
-        geometry.triangles
-    }
 
     #[inline(always)]
     fn object(&self) -> Object<'_, T> {
@@ -293,6 +287,15 @@ impl<T: Scalar> Primitive<T> for Triangle<T> {
     #[inline(always)]
     fn point(&self, _: &Ray<T>, _: T, place: Barycentric<T>) -> SurfacePoint<T> {
         self.surface_point(place)
+    }
+}
+
+impl<T: Scalar> ListedShape<T> for Triangle<T> {
+    const SEVERAL: Stages = Stages::SEVERAL_TRIANGLES;
+
+    #[inline(always)]
+    fn all<'a>(geometry: &Geometry<'a, T>) -> &'a [Self] {
+        geometry.triangles
     }
 
     #[cfg(feature = "bake")]

@@ -1,10 +1,10 @@
 //! Nearest hits and shadows by the bounding-volume hierarchy of a large scene.
 
-use super::{Closest, Observer, TestKind, Tracer, stage};
+use super::{Closest, Observer, TestKind, Tracer, any_stage, stage};
 use crate::accel::Walk;
 use crate::ray::Ray;
 use crate::scalar::Scalar;
-use crate::shape::{Plane, Primitive, Sphere, Triangle, for_each_shape};
+use crate::shape::{ListedShape, Plane, Primitive, Sphere, Triangle, for_each_shape};
 use crate::stages::Stages;
 
 impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, STACK> {
@@ -40,6 +40,11 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
                     };
                 }
                 for_each_shape!(offer_bounded);
+                if any_stage(NEEDS, Stages::STORED_SHAPES)
+                    && let Some(entry) = self.scene.geometry.stored.entries.get(within)
+                {
+                    self.offer_stored(index, entry, ray, closest, observer);
+                }
                 let _ = within;
             }
         }
@@ -49,24 +54,6 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
             for (index, plane) in (first..).zip(self.scene.geometry.planes) {
                 self.offer(index, plane, ray, closest, observer);
             }
-        }
-    }
-
-    /// Makes an object the closest if it is.
-    #[inline(always)]
-    fn offer<P: Primitive<T>>(
-        &self,
-        index: usize,
-        object: &P,
-        ray: &Ray<T>,
-        closest: &mut Closest<T>,
-        observer: &mut impl Observer<T>,
-    ) {
-        observer.test_object(object.object(), ray, closest.t);
-        if let Some((t, place)) = object.hit(ray, closest.t)
-            && !self.is_left::<P>(ray, index)
-        {
-            closest.offer(t, index, place);
         }
     }
 
@@ -99,6 +86,12 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
                     };
                 }
                 for_each_shape!(occluded_by_bounded);
+                if any_stage(NEEDS, Stages::STORED_SHAPES)
+                    && let Some(entry) = self.scene.geometry.stored.entries.get(within)
+                    && self.is_occluded_by_stored(index, entry, ray, t_max, observer)
+                {
+                    return true;
+                }
                 let _ = within;
             }
         }

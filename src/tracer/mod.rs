@@ -19,8 +19,9 @@ use crate::ray::{Ray, Side};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::shape::{
-    Barycentric, Kind, Object, Plane, Primitive, Sphere, Surface, SurfacePoint, Triangle,
-    for_each_shape,
+    Barycentric, Disc, Geometry, Kind, ListedShape, Object, Plane, Primitive, Sphere, Stored,
+    StoredEntry, StoredShape, Surface, SurfacePoint, Triangle, for_each_shape,
+    for_each_stored_shape,
 };
 use crate::stages::Stages;
 use crate::vec3::Vec3;
@@ -36,6 +37,12 @@ const ALL_AND_BVH: u64 = Stages::ALL.union(Stages::BVH).bits();
 #[inline(always)]
 const fn stage(needs: u64, stage: Stages) -> bool {
     Stages::from_bits(needs).contains(stage)
+}
+
+/// Whether any stage of several is compiled.
+#[inline(always)]
+const fn any_stage(needs: u64, stages: Stages) -> bool {
+    stages.without(Stages::from_bits(needs)).bits() != stages.bits()
 }
 
 /// Traces rays through a scene.
@@ -332,6 +339,18 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
             };
         }
         for_each_shape!(closest_of_each);
+        if any_stage(NEEDS, Stages::STORED_SHAPES) {
+            let stored = &self.scene.geometry.stored;
+            members.walk(
+                first..first + stored.entries.len(),
+                true,
+                |index| stored.entries.get(index.wrapping_sub(first)),
+                |index, entry| {
+                    self.offer_stored(index, entry, ray, &mut closest, observer);
+                    false
+                },
+            );
+        }
         let _ = first;
         closest
     }
@@ -339,7 +358,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     /// Makes the closest of the members of one shape, whose indices begin at `first`, the closest; gives the index behind
     /// them.
     #[inline(always)]
-    fn closest_of<P: Primitive<T>>(
+    fn closest_of<P: ListedShape<T>>(
         &self,
         first: usize,
         members: &mut Members,
@@ -373,6 +392,75 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         first + all.len()
     }
 
+    /// Makes a stored object the closest if it is.
+    #[inline(always)]
+    fn offer_stored(
+        &self,
+        index: usize,
+        entry: &StoredEntry,
+        ray: &Ray<T>,
+        closest: &mut Closest<T>,
+        observer: &mut impl Observer<T>,
+    ) {
+        macro_rules! of_kind {
+            ([$($shape:ident)*]) => {
+                match entry.kind {
+                    $(Kind::$shape if stage(NEEDS, <$shape<T> as Primitive<T>>::STAGE) => {
+                        if let Some(object) = <$shape<T>>::of(&self.scene.geometry.stored, entry) {
+                            self.offer(index, &object, ray, closest, observer);
+                        }
+                    })*
+                    _ => {}
+                }
+            };
+        }
+        for_each_stored_shape!(of_kind)
+    }
+
+    /// Makes an object the closest if it is.
+    #[inline(always)]
+    fn offer<P: Primitive<T>>(
+        &self,
+        index: usize,
+        object: &P,
+        ray: &Ray<T>,
+        closest: &mut Closest<T>,
+        observer: &mut impl Observer<T>,
+    ) {
+        observer.test_object(object.object(), ray, closest.t);
+        if let Some((t, place)) = object.hit(ray, closest.t)
+            && !self.is_left::<P>(ray, index)
+        {
+            closest.offer(t, index, place);
+        }
+    }
+
+    /// Whether a stored object casts a shadow on a ray.
+    #[inline(always)]
+    fn is_occluded_by_stored(
+        &self,
+        index: usize,
+        entry: &StoredEntry,
+        ray: &Ray<T>,
+        t_max: T,
+        observer: &mut impl Observer<T>,
+    ) -> bool {
+        macro_rules! of_kind {
+            ([$($shape:ident)*]) => {
+                match entry.kind {
+                    $(Kind::$shape if stage(NEEDS, <$shape<T> as Primitive<T>>::STAGE) => {
+                        <$shape<T>>::of(&self.scene.geometry.stored, entry).is_some_and(|object| {
+                            observer.test_object(object.object(), ray, t_max);
+                            self.is_occluded_by(index, &object, ray, t_max)
+                        })
+                    })*
+                    _ => false,
+                }
+            };
+        }
+        for_each_stored_shape!(of_kind)
+    }
+
     /// Whether an object that casts shadows lies on the ray within `0 < t < t_max`.
     pub fn occluded(&self, ray: &Ray<T>, t_max: T) -> bool {
         let all = self.without_flat(ray.leaves.object() as usize, ObjectSet::ALL);
@@ -403,13 +491,22 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
             };
         }
         for_each_shape!(occluded_by_each);
+        if any_stage(NEEDS, Stages::STORED_SHAPES) {
+            let stored = &self.scene.geometry.stored;
+            return members.walk(
+                first..first + stored.entries.len(),
+                true,
+                |index| stored.entries.get(index.wrapping_sub(first)),
+                |index, entry| self.is_occluded_by_stored(index, entry, ray, t_max, observer),
+            );
+        }
         let _ = first;
         false
     }
 
     /// Whether a member of one shape, whose indices begin at `first`, casts a shadow.
     #[inline(always)]
-    fn occluded_by<P: Primitive<T>>(
+    fn occluded_by<P: ListedShape<T>>(
         &self,
         first: usize,
         members: &mut Members,
@@ -430,6 +527,16 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
                 self.is_occluded_by(index, object, ray, t_max)
             },
         )
+    }
+
+    /// The objects of the shapes that are compiled.
+    #[inline(always)]
+    fn geometry(&self) -> Geometry<'a, T> {
+        let mut geometry = self.scene.geometry;
+        if !any_stage(NEEDS, Stages::STORED_SHAPES) {
+            geometry.stored = Stored::NONE;
+        }
+        geometry
     }
 
     /// Whether an object of a flat shape is the one that the ray leaves, which it cannot hit again whatever rounding says.
@@ -455,7 +562,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     #[cold]
     #[inline(never)]
     fn without_flat(&self, index: usize, candidates: ObjectSet) -> ObjectSet {
-        let is_flat = self.scene.geometry.is_flat(index);
+        let is_flat = self.geometry().is_flat(index);
         if is_flat && index < ObjectSet::TOLD_APART {
             candidates.without(ObjectSet::NONE.with(index))
         } else {
@@ -509,8 +616,23 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
             };
         }
         for_each_shape!(among);
-        let _ = index;
-        None
+        if !any_stage(NEEDS, Stages::STORED_SHAPES) {
+            return None;
+        }
+        let stored = &self.scene.geometry.stored;
+        let entry = stored.entries.get(index)?;
+        macro_rules! of_kind {
+            ([$($shape:ident)*]) => {
+                match entry.kind {
+                    $(Kind::$shape if stage(NEEDS, <$shape<T> as Primitive<T>>::STAGE) => {
+                        let object = <$shape<T>>::of(stored, entry)?;
+                        object.point(ray, closest.t, closest.place)
+                    })*
+                    _ => return None,
+                }
+            };
+        }
+        Some((for_each_stored_shape!(of_kind), entry.surface, None))
     }
 
     /// What rays can meet that leave a side of an object.
@@ -757,12 +879,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     fn scanline_of(&self, row_height: T, half_width: T) -> Scanline<T> {
         Scanline {
             row_height,
-            visible: visible_in_row(
-                &self.scene.geometry,
-                &self.scene.camera,
-                row_height,
-                half_width,
-            ),
+            visible: visible_in_row(&self.geometry(), &self.scene.camera, row_height, half_width),
         }
     }
 

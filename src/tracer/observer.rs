@@ -28,7 +28,9 @@ pub enum TestKind {
     Plane,
     /// Ray against triangle, bounding ball included.
     Triangle,
-    /// Ray against a box of the tree.
+    /// Ray against an object of any other shape.
+    Other,
+    /// Ray against a box of the hierarchy.
     Box,
 }
 
@@ -90,6 +92,7 @@ pub trait Observer<T> {
             Object::Sphere(_) => TestKind::Sphere,
             Object::Plane(_) => TestKind::Plane,
             Object::Triangle(_) => TestKind::Triangle,
+            _ => TestKind::Other,
         });
     }
 
@@ -148,7 +151,9 @@ pub struct WorkCount {
     pub plane_tests: u64,
     /// Tests against triangles.
     pub triangle_tests: u64,
-    /// Tests against boxes of the tree.
+    /// Tests against objects of other shapes.
+    pub other_tests: u64,
+    /// Tests against boxes of the hierarchy.
     pub box_tests: u64,
 }
 
@@ -160,7 +165,11 @@ impl WorkCount {
 
     /// Tests of all kinds.
     pub fn tests(&self) -> u64 {
-        self.sphere_tests + self.plane_tests + self.triangle_tests + self.box_tests
+        self.sphere_tests
+            + self.plane_tests
+            + self.triangle_tests
+            + self.other_tests
+            + self.box_tests
     }
 
     /// Adds the counts of another part of the picture.
@@ -172,6 +181,7 @@ impl WorkCount {
         self.sphere_tests += other.sphere_tests;
         self.plane_tests += other.plane_tests;
         self.triangle_tests += other.triangle_tests;
+        self.other_tests += other.other_tests;
         self.box_tests += other.box_tests;
     }
 }
@@ -191,6 +201,7 @@ impl<T> Observer<T> for WorkCount {
             TestKind::Sphere => &mut self.sphere_tests,
             TestKind::Plane => &mut self.plane_tests,
             TestKind::Triangle => &mut self.triangle_tests,
+            TestKind::Other => &mut self.other_tests,
             TestKind::Box => &mut self.box_tests,
         } += 1;
     }

@@ -9,3 +9,4 @@ mod fuzzing;
 mod mutations;
 mod parser_properties;
 mod parser_rejections;
+mod pools;
