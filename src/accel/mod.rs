@@ -36,7 +36,7 @@ use heapless::VecView;
 use crate::light::Light;
 use crate::material::Material;
 use crate::scalar::Scalar;
-use crate::shape::{Geometry, ListedShape, Object, Plane, Sphere, Triangle, for_each_shape};
+use crate::shape::{Geometry, Object};
 use crate::vec3::Vec3;
 
 /// What is derived from a scene, so that rays need not be tested against all of it. Without any of it the picture has the same
@@ -141,10 +141,10 @@ impl<T: Scalar> AccelMut<'_, T> {
         if source.geometry.count() > self.sides.capacity() {
             return;
         }
-        source.geometry.for_each(|_, object| {
+        for object in source.geometry.objects() {
             // There is room for all.
             let _ = self.sides.push(sides::sides(source, object));
-        });
+        }
         for plane in source.geometry.planes {
             if self
                 .grids
@@ -162,13 +162,13 @@ impl<T: Scalar> AccelMut<'_, T> {
         self.entries.clear();
         let capacity = self.entries.capacity();
         let mut bounded = 0;
-        geometry.for_each(|index, object| {
+        for (index, object) in (0..).zip(geometry.objects()) {
             if object.is_bounded() {
                 bounded += 1;
                 // `extend` could panic, as far as the compiler knows.
-                let _ = self.entries.push(index as u32);
+                let _ = self.entries.push(index);
             }
-        });
+        }
         if bounded < Bvh::<T>::FEWEST_OBJECTS || bounded > capacity {
             self.entries.clear();
             return;
@@ -194,29 +194,14 @@ fn collect<T: Scalar>(
     mut holds: impl FnMut(Object<'_, T>) -> bool,
 ) -> ObjectSet {
     const END: usize = ObjectSet::TOLD_APART;
+    let count = geometry.count();
     let mut set = ObjectSet::NONE;
-    let mut first = 0;
-    macro_rules! among {
-        ([$($shape:ident)*]) => {
-            $(
-                let all = $shape::all(geometry);
-                for (index, it) in (first..END).zip(all) {
-                    if holds(Object::$shape(it)) {
-                        set = set.with(index);
-                    }
-                }
-                first += all.len();
-            )*
-        };
-    }
-    for_each_shape!(among);
-    for (index, entry) in (first..END).zip(geometry.stored.entries) {
-        if geometry.stored.object(entry).is_some_and(&mut holds) {
+    for index in 0..count.min(END) {
+        if geometry.object(index).is_some_and(&mut holds) {
             set = set.with(index);
         }
     }
-    first += geometry.stored.entries.len();
-    if first > END {
+    if count > END {
         // What is not told apart is in every set.
         set = set.with(END);
     }

@@ -1,7 +1,7 @@
 //! Flat discs.
 
 use super::{
-    Barycentric, BoundingSphere, Kind, Object, Primitive, Shape, ShapeError, StoredShape, Surface,
+    Barycentric, BoundingSphere, Kind, Primitive, Shape, ShapeError, StoredShape, Surface,
     SurfacePoint,
 };
 use crate::formula::{self, origin_offset};
@@ -131,11 +131,6 @@ impl<T: Scalar> Primitive<T> for Disc<T> {
     const IS_FLAT: bool = true;
     const HAS_PLACE: bool = false;
 
-    #[inline(always)]
-    fn object(&self) -> Object<'_, T> {
-        Object::Disc(*self)
-    }
-
     fn shape(&self) -> Shape<T> {
         Shape::Disc {
             center: self.center,
@@ -208,8 +203,9 @@ impl<T: Scalar> StoredShape<T> for Disc<T> {
     }
 
     #[inline(always)]
-    fn read(numbers: &[T], surface: Surface) -> Option<Self> {
-        let &[
+    fn read(numbers: &[T], surface: Surface) -> Self {
+        let none = [T::ZERO; 10];
+        let [
             cx,
             cy,
             cz,
@@ -220,11 +216,8 @@ impl<T: Scalar> StoredShape<T> for Disc<T> {
             radius_squared,
             radius,
             offset,
-        ] = numbers
-        else {
-            return None;
-        };
-        Some(Self {
+        ] = *numbers.first_chunk().unwrap_or(&none);
+        Self {
             center: Vec3::new(cx, cy, cz),
             normal: Vec3::new(nx, ny, nz),
             height,
@@ -232,6 +225,6 @@ impl<T: Scalar> StoredShape<T> for Disc<T> {
             radius,
             offset,
             surface,
-        })
+        }
     }
 }

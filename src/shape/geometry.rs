@@ -67,7 +67,7 @@ impl<'a, T: Scalar> Geometry<'a, T> {
             };
         }
         for_each_shape!(among);
-        self.stored.object(self.stored.entries.get(index)?)
+        self.stored.get(index).map(Object::Stored)
     }
 
     /// Whether there is an object of an index that a ray which leaves it cannot hit again.
@@ -96,26 +96,10 @@ impl<'a, T: Scalar> Geometry<'a, T> {
         for_each_stored_shape!(among_stored)
     }
 
-    /// Calls a function with each object and its index, in their order.
-    pub(crate) fn for_each(&self, mut each: impl FnMut(usize, Object<'a, T>)) {
-        let mut index = 0;
-        macro_rules! visit {
-            ([$($shape:ident)*]) => {
-                $(
-                    for it in $shape::all(self) {
-                        each(index, Object::$shape(it));
-                        index += 1;
-                    }
-                )*
-            };
-        }
-        for_each_shape!(visit);
-        for entry in self.stored.entries {
-            if let Some(object) = self.stored.object(entry) {
-                each(index, object);
-            }
-            index += 1;
-        }
+    /// The objects of all kinds, in the order of their indices.
+    pub fn objects(&self) -> impl Iterator<Item = Object<'a, T>> + use<'a, T> {
+        let geometry = *self;
+        (0..self.count()).filter_map(move |index| geometry.object(index))
     }
 
     /// The objects of all kinds, in the order of the text.
@@ -138,11 +122,11 @@ impl<'a, T: Scalar> Geometry<'a, T> {
                 };
             }
             for_each_shape!(earliest);
-            if let Some(entry) = geometry.stored.entries.get(stored)
-                && next.is_none_or(|next| entry.surface.number < next.surface().number)
+            if let Some(object) = geometry.stored.get(stored)
+                && next.is_none_or(|next| object.entry.surface.number < next.surface().number)
             {
                 stored += 1;
-                return geometry.stored.object(entry);
+                return Some(Object::Stored(object));
             }
             let next = next?;
             told[next.kind().index()] += 1;

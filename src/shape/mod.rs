@@ -20,7 +20,7 @@ pub use geometry::Geometry;
 pub use plane::Plane;
 pub use sphere::Sphere;
 pub(crate) use stored::StoredShape;
-pub use stored::{Stored, StoredEntry};
+pub use stored::{Stored, StoredEntry, StoredObject};
 pub use triangle::{Barycentric, Triangle};
 
 use core::fmt;
@@ -66,7 +66,17 @@ macro_rules! match_shape {
     ([$($stored:ident)*] [$($shape:ident)*] $object:expr, $it:ident => $call:expr) => {
         match $object {
             $(Object::$shape($it) => { let $it = *$it; $call })*
-            $(Object::$stored($it) => $call,)*
+            Object::Stored(object) => match object.entry.kind {
+                $(Kind::$stored => {
+                    let $it: &$stored<_> = &StoredShape::of(*object);
+                    $call
+                })*
+                // Kinds that are not stored do not come here; of whatever numbers, it is an object.
+                _ => {
+                    let $it: &Disc<_> = &StoredShape::of(*object);
+                    $call
+                }
+            },
         }
     };
 }
@@ -118,8 +128,8 @@ pub enum Object<'a, T = f32> {
     Plane(&'a Plane<T>),
     /// A triangle.
     Triangle(&'a Triangle<T>),
-    /// A disc.
-    Disc(Disc<T>),
+    /// An object of a shape that few scenes have.
+    Stored(StoredObject<'a, T>),
 }
 
 /// What an object is, in the numbers that describe it: what parsers, printers and programs hand on.
@@ -231,9 +241,6 @@ pub(crate) trait Primitive<T: Scalar>: Copy {
     /// [`Primitive::point`] needs the place that [`Primitive::hit`] tells.
     const HAS_PLACE: bool;
 
-    /// The object in general.
-    fn object(&self) -> Object<'_, T>;
-
     /// What describes it.
     fn shape(&self) -> Shape<T>;
 
@@ -264,6 +271,9 @@ pub(crate) trait ListedShape<T: Scalar>: Primitive<T> {
     /// The stage that draws more than one of it.
     const SEVERAL: Stages;
 
+    /// The object in general.
+    fn object(&self) -> Object<'_, T>;
+
     /// All of this kind.
     fn all<'a>(geometry: &Geometry<'a, T>) -> &'a [Self];
 
@@ -288,7 +298,7 @@ impl<T: Scalar> Object<'_, T> {
     /// Material and place in the text.
     #[inline(always)]
     pub fn surface(&self) -> Surface {
-        of_any_shape!(self, it => it.surface())
+        of_any_shape!(self, it => Primitive::<T>::surface(it))
     }
 
     /// Its kind.
@@ -298,12 +308,12 @@ impl<T: Scalar> Object<'_, T> {
 
     /// What describes it.
     pub fn shape(&self) -> Shape<T> {
-        of_any_shape!(self, it => Primitive::shape(it))
+        of_any_shape!(self, it => Primitive::<T>::shape(it))
     }
 
     /// The lowest and the highest coordinates of what rays can hit; `None` if it is unbounded.
     pub fn bounding_box(&self) -> Option<[Vec3<T>; 2]> {
-        of_any_shape!(self, it => Primitive::bounding_box(it))
+        of_any_shape!(self, it => Primitive::<T>::bounding_box(it))
     }
 
     /// Whether a ray that leaves it cannot hit it again.
@@ -311,7 +321,7 @@ impl<T: Scalar> Object<'_, T> {
         fn is_flat<T: Scalar, P: Primitive<T>>(_: &P) -> bool {
             P::IS_FLAT
         }
-        of_any_shape!(self, it => is_flat(it))
+        of_any_shape!(self, it => is_flat::<T, _>(it))
     }
 
     /// Whether it has a bounding box.
@@ -321,7 +331,7 @@ impl<T: Scalar> Object<'_, T> {
 
     /// A ball around it; `None` if it is unbounded, or as good as that.
     pub fn bounding_sphere(&self) -> Option<BoundingSphere<T>> {
-        of_any_shape!(self, it => Primitive::bounding_sphere(it))
+        of_any_shape!(self, it => Primitive::<T>::bounding_sphere(it))
     }
 }
 

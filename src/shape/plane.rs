@@ -110,11 +110,6 @@ impl<T: Scalar> Primitive<T> for Plane<T> {
     const IS_FLAT: bool = true;
     const HAS_PLACE: bool = false;
 
-    #[inline(always)]
-    fn object(&self) -> Object<'_, T> {
-        Object::Plane(self)
-    }
-
     fn shape(&self) -> Shape<T> {
         Shape::Plane {
             normal: self.normal,
@@ -157,6 +152,11 @@ impl<T: Scalar> Primitive<T> for Plane<T> {
 
 impl<T: Scalar> ListedShape<T> for Plane<T> {
     const SEVERAL: Stages = Stages::SEVERAL_PLANES;
+
+    #[inline(always)]
+    fn object(&self) -> Object<'_, T> {
+        Object::Plane(self)
+    }
 
     #[inline(always)]
     fn all<'a>(geometry: &Geometry<'a, T>) -> &'a [Self] {

@@ -179,11 +179,6 @@ impl<T: Scalar> Primitive<T> for Sphere<T> {
     const IS_FLAT: bool = false;
     const HAS_PLACE: bool = false;
 
-    #[inline(always)]
-    fn object(&self) -> Object<'_, T> {
-        Object::Sphere(self)
-    }
-
     fn shape(&self) -> Shape<T> {
         Shape::Sphere {
             center: self.center,
@@ -230,6 +225,11 @@ impl<T: Scalar> Primitive<T> for Sphere<T> {
 
 impl<T: Scalar> ListedShape<T> for Sphere<T> {
     const SEVERAL: Stages = Stages::SEVERAL_SPHERES;
+
+    #[inline(always)]
+    fn object(&self) -> Object<'_, T> {
+        Object::Sphere(self)
+    }
 
     #[inline(always)]
     fn all<'a>(geometry: &Geometry<'a, T>) -> &'a [Self] {

@@ -1,7 +1,7 @@
 //! Shapes that few scenes have: their numbers stand one after another in one list, whatever their kinds, so that a scene does
 //! not grow with the number of kinds, and each object takes no more room than its own numbers.
 
-use super::{Disc, Kind, Object, Primitive, Surface, for_each_stored_shape};
+use super::{Kind, Primitive, Surface};
 use crate::scalar::Scalar;
 
 /// Where the numbers of an object are, and what they are.
@@ -32,6 +32,14 @@ pub struct Stored<'a, T = f32> {
     pub(crate) numbers: &'a [T],
 }
 
+/// An object that is stored by its numbers; [`Object::shape`](super::Object::shape) tells what it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StoredObject<'a, T = f32> {
+    pub(crate) entry: &'a StoredEntry,
+    /// All numbers of the scene.
+    pub(crate) numbers: &'a [T],
+}
+
 /// A shape that is stored by its numbers.
 pub(crate) trait StoredShape<T: Scalar>: Primitive<T> {
     /// How many numbers it has.
@@ -40,14 +48,15 @@ pub(crate) trait StoredShape<T: Scalar>: Primitive<T> {
     /// Writes its numbers into a list of so many.
     fn write(&self, numbers: &mut [T]);
 
-    /// The shape of as many numbers.
-    fn read(numbers: &[T], surface: Surface) -> Option<Self>;
+    /// The shape whose numbers are first in a list; some that no ray hits if there are too few.
+    fn read(numbers: &[T], surface: Surface) -> Self;
 
-    /// The shape of an entry.
+    /// The shape of an object of its kind.
     #[inline(always)]
-    fn of(stored: &Stored<'_, T>, entry: &StoredEntry) -> Option<Self> {
-        let numbers = stored.numbers.get(entry.first as usize..)?;
-        Self::read(numbers.get(..Self::NUMBERS)?, entry.surface)
+    fn of(object: StoredObject<'_, T>) -> Self {
+        let StoredObject { entry, numbers } = object;
+        let numbers = numbers.get(entry.first as usize..).unwrap_or_default();
+        Self::read(numbers, entry.surface)
     }
 }
 
@@ -64,6 +73,19 @@ impl<'a, T> Stored<'a, T> {
         Self { entries, numbers }
     }
 
+    /// The object of an index among these.
+    #[inline(always)]
+    pub const fn get(&self, index: usize) -> Option<StoredObject<'a, T>> {
+        if index < self.entries.len() {
+            Some(StoredObject {
+                entry: &self.entries[index],
+                numbers: self.numbers,
+            })
+        } else {
+            None
+        }
+    }
+
     /// Number of objects of a kind.
     pub const fn count_of(&self, kind: Kind) -> usize {
         let mut count = 0;
@@ -75,20 +97,5 @@ impl<'a, T> Stored<'a, T> {
             i += 1;
         }
         count
-    }
-}
-
-impl<T: Scalar> Stored<'_, T> {
-    /// The object of an entry; `None` if its numbers are missing.
-    pub(crate) fn object<'o>(&self, entry: &StoredEntry) -> Option<Object<'o, T>> {
-        macro_rules! of_kind {
-            ([$($shape:ident)*]) => {
-                match entry.kind {
-                    $(Kind::$shape => $shape::of(self, entry).map(Object::$shape),)*
-                    _ => None,
-                }
-            };
-        }
-        for_each_stored_shape!(of_kind)
     }
 }

@@ -240,11 +240,6 @@ impl<T: Scalar> Primitive<T> for Triangle<T> {
     const IS_FLAT: bool = true;
     const HAS_PLACE: bool = true;
 
-    #[inline(always)]
-    fn object(&self) -> Object<'_, T> {
-        Object::Triangle(self)
-    }
-
     fn shape(&self) -> Shape<T> {
         Shape::Triangle(self.vertices)
     }
@@ -292,6 +287,11 @@ impl<T: Scalar> Primitive<T> for Triangle<T> {
 
 impl<T: Scalar> ListedShape<T> for Triangle<T> {
     const SEVERAL: Stages = Stages::SEVERAL_TRIANGLES;
+
+    #[inline(always)]
+    fn object(&self) -> Object<'_, T> {
+        Object::Triangle(self)
+    }
 
     #[inline(always)]
     fn all<'a>(geometry: &Geometry<'a, T>) -> &'a [Self] {

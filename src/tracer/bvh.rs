@@ -32,7 +32,8 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
                         $(if stage(NEEDS, <$shape<T> as Primitive<T>>::STAGE) {
                             let all = <$shape<T>>::all(&self.scene.geometry);
                             if let Some(object) = all.get(within) {
-                                self.offer(index, object, ray, closest, observer);
+                                observer.test_object(object.object(), ray, closest.t);
+                                self.offer(index, object, ray, closest);
                                 continue;
                             }
                             within = within.wrapping_sub(all.len());
@@ -41,9 +42,9 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
                 }
                 for_each_shape!(offer_bounded);
                 if any_stage(NEEDS, Stages::STORED_SHAPES)
-                    && let Some(entry) = self.scene.geometry.stored.entries.get(within)
+                    && let Some(object) = self.scene.geometry.stored.get(within)
                 {
-                    self.offer_stored(index, entry, ray, closest, observer);
+                    self.offer_stored(index, object, ray, closest, observer);
                 }
                 let _ = within;
             }
@@ -52,7 +53,8 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         if stage(NEEDS, Stages::PLANES) {
             let first = self.scene.geometry.spheres.len();
             for (index, plane) in (first..).zip(self.scene.geometry.planes) {
-                self.offer(index, plane, ray, closest, observer);
+                observer.test_object(plane.object(), ray, closest.t);
+                self.offer(index, plane, ray, closest);
             }
         }
     }
@@ -87,8 +89,8 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
                 }
                 for_each_shape!(occluded_by_bounded);
                 if any_stage(NEEDS, Stages::STORED_SHAPES)
-                    && let Some(entry) = self.scene.geometry.stored.entries.get(within)
-                    && self.is_occluded_by_stored(index, entry, ray, t_max, observer)
+                    && let Some(object) = self.scene.geometry.stored.get(within)
+                    && self.is_occluded_by_stored(index, object, ray, t_max, observer)
                 {
                     return true;
                 }

@@ -20,7 +20,7 @@ use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::shape::{
     Barycentric, Disc, Geometry, Kind, ListedShape, Object, Plane, Primitive, Sphere, Stored,
-    StoredEntry, StoredShape, Surface, SurfacePoint, Triangle, for_each_shape,
+    StoredObject, StoredShape, Surface, SurfacePoint, Triangle, for_each_shape,
     for_each_stored_shape,
 };
 use crate::stages::Stages;
@@ -344,9 +344,9 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
             members.walk(
                 first..first + stored.entries.len(),
                 true,
-                |index| stored.entries.get(index.wrapping_sub(first)),
-                |index, entry| {
-                    self.offer_stored(index, entry, ray, &mut closest, observer);
+                |index| stored.get(index.wrapping_sub(first)),
+                |index, object| {
+                    self.offer_stored(index, object, ray, &mut closest, observer);
                     false
                 },
             );
@@ -397,18 +397,17 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     fn offer_stored(
         &self,
         index: usize,
-        entry: &StoredEntry,
+        object: StoredObject<'_, T>,
         ray: &Ray<T>,
         closest: &mut Closest<T>,
         observer: &mut impl Observer<T>,
     ) {
         macro_rules! of_kind {
             ([$($shape:ident)*]) => {
-                match entry.kind {
+                match object.entry.kind {
                     $(Kind::$shape if stage(NEEDS, <$shape<T> as Primitive<T>>::STAGE) => {
-                        if let Some(object) = <$shape<T>>::of(&self.scene.geometry.stored, entry) {
-                            self.offer(index, &object, ray, closest, observer);
-                        }
+                        observer.test_object(Object::Stored(object), ray, closest.t);
+                        self.offer(index, &<$shape<T>>::of(object), ray, closest);
                     })*
                     _ => {}
                 }
@@ -425,9 +424,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         object: &P,
         ray: &Ray<T>,
         closest: &mut Closest<T>,
-        observer: &mut impl Observer<T>,
     ) {
-        observer.test_object(object.object(), ray, closest.t);
         if let Some((t, place)) = object.hit(ray, closest.t)
             && !self.is_left::<P>(ray, index)
         {
@@ -440,19 +437,17 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     fn is_occluded_by_stored(
         &self,
         index: usize,
-        entry: &StoredEntry,
+        object: StoredObject<'_, T>,
         ray: &Ray<T>,
         t_max: T,
         observer: &mut impl Observer<T>,
     ) -> bool {
         macro_rules! of_kind {
             ([$($shape:ident)*]) => {
-                match entry.kind {
+                match object.entry.kind {
                     $(Kind::$shape if stage(NEEDS, <$shape<T> as Primitive<T>>::STAGE) => {
-                        <$shape<T>>::of(&self.scene.geometry.stored, entry).is_some_and(|object| {
-                            observer.test_object(object.object(), ray, t_max);
-                            self.is_occluded_by(index, &object, ray, t_max)
-                        })
+                        observer.test_object(Object::Stored(object), ray, t_max);
+                        self.is_occluded_by(index, &<$shape<T>>::of(object), ray, t_max)
                     })*
                     _ => false,
                 }
@@ -496,8 +491,8 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
             return members.walk(
                 first..first + stored.entries.len(),
                 true,
-                |index| stored.entries.get(index.wrapping_sub(first)),
-                |index, entry| self.is_occluded_by_stored(index, entry, ray, t_max, observer),
+                |index| stored.get(index.wrapping_sub(first)),
+                |index, object| self.is_occluded_by_stored(index, object, ray, t_max, observer),
             );
         }
         let _ = first;
@@ -619,20 +614,18 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         if !any_stage(NEEDS, Stages::STORED_SHAPES) {
             return None;
         }
-        let stored = &self.scene.geometry.stored;
-        let entry = stored.entries.get(index)?;
+        let object = self.scene.geometry.stored.get(index)?;
         macro_rules! of_kind {
             ([$($shape:ident)*]) => {
-                match entry.kind {
+                match object.entry.kind {
                     $(Kind::$shape if stage(NEEDS, <$shape<T> as Primitive<T>>::STAGE) => {
-                        let object = <$shape<T>>::of(stored, entry)?;
-                        object.point(ray, closest.t, closest.place)
+                        <$shape<T>>::of(object).point(ray, closest.t, closest.place)
                     })*
                     _ => return None,
                 }
             };
         }
-        Some((for_each_stored_shape!(of_kind), entry.surface, None))
+        Some((for_each_stored_shape!(of_kind), object.entry.surface, None))
     }
 
     /// What rays can meet that leave a side of an object.

@@ -84,13 +84,15 @@ impl<'p, T: Scalar> Part<'p, T> {
         };
         let [(low_u, step_u, u), (low_v, step_v, v)] = Axis::BOTH.map(|axis| {
             let (mut low, mut high) = (T::MAX, -T::MAX);
-            scene.geometry.for_each(|_, object| {
-                if let Some(ball) = object.bounding_sphere() {
-                    let center = axis.of(across(normal_axis, ball.center));
-                    high = (center + ball.radius).max(high);
-                    low = -((ball.radius - center).max(-low));
-                }
-            });
+            for ball in scene
+                .geometry
+                .objects()
+                .filter_map(|it| it.bounding_sphere())
+            {
+                let center = axis.of(across(normal_axis, ball.center));
+                high = (center + ball.radius).max(high);
+                low = -((ball.radius - center).max(-low));
+            }
             let middle = (low + high) * T::HALF;
             let half = (high - low) * T::HALF * widening();
             let step = (half + half) / T::from_i32(Slab::PER_AXIS as i32);
