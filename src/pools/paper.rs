@@ -7,7 +7,7 @@ use crate::light::Light;
 use crate::material::Material;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::shape::{Plane, Sphere, Triangle};
+use crate::shape::{Geometry, Plane, Sphere, Stored, Triangle};
 use crate::stages::Stages;
 
 /// What [`ScenePools`] are declared for: all that the numeric dialect can say.
@@ -94,14 +94,27 @@ impl<
 
     /// The scene in the pools.
     pub fn as_scene(&self) -> Scene<'_, T> {
-        self.settings
-            .scene()
-            .with_spheres(&self.spheres)
-            .with_planes(&self.planes)
-            .with_triangles(&self.triangles)
-            .with_materials(&self.materials)
-            .with_lights(&self.lights)
-            .with_accel(self.accel.as_accel())
+        let Settings {
+            camera,
+            resolution,
+            ambient,
+            background,
+        } = self.settings;
+        Scene {
+            camera,
+            resolution,
+            ambient,
+            background,
+            lights: &self.lights,
+            geometry: Geometry {
+                spheres: &self.spheres,
+                planes: &self.planes,
+                triangles: &self.triangles,
+                stored: Stored::NONE,
+            },
+            materials: &self.materials,
+            accel: self.accel.as_accel(),
+        }
     }
 
     /// The pools without their capacities in the type, to be filled.
@@ -127,6 +140,8 @@ impl<
     /// bounding-volume hierarchy of a large scene. The picture is the same in less time.
     ///
     /// Loading a scene text does this; call it after changing a scene by hand.
+    // Not inlined, so that its locals are not on the stack while a text is read.
+    #[inline(never)]
     pub fn prepare(&mut self) {
         // Not compiled for pools without room.
         if const { BVH > 0 } {
