@@ -114,7 +114,6 @@ impl<T: Scalar> fmt::Display for Baked<'_, Scene<'_, T>> {
         list(f, "", accel.grids, ",")?;
         list(f, "", accel.bvh.nodes, ",")?;
         list(f, "", accel.bvh.entries, ",")?;
-        writeln!(f, "    {},", accel.knows_faint)?;
         write!(f, "    ))")
     }
 }

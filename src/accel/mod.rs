@@ -46,14 +46,13 @@ use crate::vec3::Vec3;
 /// drops it when any of them changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accel<'a, T = f32> {
-    /// By [`Side::index`](crate::Side::index); where there is no entry, anything may be hit.
+    /// By [`Side::index`](crate::Side::index); where there is no entry, anything may be hit. If there are any, the materials' own
+    /// [`Material::faint_alignment`] belong to the scene, too.
     pub(crate) sides: &'a [Candidates],
     /// By the plane's index among planes; where there is no entry, what `sides` says may be hit.
     pub(crate) grids: &'a [PlaneGrid<T>],
     /// Of a large scene, what its bounded objects are found by.
     pub(crate) bvh: Bvh<'a, T>,
-    /// The materials' own [`Material::faint_alignment`] belong to the scene's lights and ambient light.
-    pub(crate) knows_faint: bool,
 }
 
 impl<'a, T> Accel<'a, T> {
@@ -62,7 +61,6 @@ impl<'a, T> Accel<'a, T> {
         sides: &[],
         grids: &[],
         bvh: Bvh::NONE,
-        knows_faint: false,
     };
 
     /// For baked scenes alone: nothing checks that it belongs to the scene.
@@ -72,14 +70,18 @@ impl<'a, T> Accel<'a, T> {
         grids: &'a [PlaneGrid<T>],
         nodes: &'a [BvhNode<T>],
         entries: &'a [u32],
-        knows_faint: bool,
     ) -> Self {
         Self {
             sides,
             grids,
             bvh: Bvh { nodes, entries },
-            knows_faint,
         }
+    }
+
+    /// The materials' own [`Material::faint_alignment`] belong to the scene's lights and ambient light.
+    #[inline(always)]
+    pub(crate) const fn knows_faint(&self) -> bool {
+        !self.sides.is_empty()
     }
 
     /// What rays can hit that leave each side of each object, by [`Side::index`](crate::Side::index); where there is no
@@ -121,7 +123,6 @@ pub struct AccelMut<'p, T> {
     /// As many as entries.
     pub(crate) nodes: &'p mut VecView<BvhNode<T>>,
     pub(crate) entries: &'p mut VecView<u32>,
-    pub(crate) knows_faint: &'p mut bool,
 }
 
 impl<T: Scalar> AccelMut<'_, T> {
@@ -131,7 +132,6 @@ impl<T: Scalar> AccelMut<'_, T> {
         self.grids.clear();
         self.nodes.clear();
         self.entries.clear();
-        *self.knows_faint = false;
     }
 
     /// Derives what there is room for: lists of candidates and plane grids.

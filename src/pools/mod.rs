@@ -378,7 +378,6 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
                 material.set_faint_alignment(faint);
             }
         }
-        *self.accel.knows_faint = true;
     }
 
     /// Sets where the scene is seen from; what was derived stays true.
@@ -394,7 +393,7 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
     /// Sets the intensity of the ambient light.
     pub fn set_ambient(&mut self, ambient: T) {
         self.settings.ambient = ambient;
-        *self.accel.knows_faint = false;
+        self.accel.clear();
     }
 
     /// Sets what is behind everything.

@@ -288,7 +288,6 @@ pub struct AccelPools<T, const SIDES: usize, const GRIDS: usize, const BVH: usiz
     grids: Vec<PlaneGrid<T>, GRIDS>,
     nodes: Vec<BvhNode<T>, BVH>,
     entries: Vec<u32, BVH>,
-    knows_faint: bool,
 }
 
 impl<T: Scalar, const SIDES: usize, const GRIDS: usize, const BVH: usize>
@@ -301,7 +300,6 @@ impl<T: Scalar, const SIDES: usize, const GRIDS: usize, const BVH: usize>
             grids: Vec::new(),
             nodes: Vec::new(),
             entries: Vec::new(),
-            knows_faint: false,
         }
     }
 
@@ -314,7 +312,6 @@ impl<T: Scalar, const SIDES: usize, const GRIDS: usize, const BVH: usize>
                 nodes: &self.nodes,
                 entries: &self.entries,
             },
-            knows_faint: self.knows_faint,
         }
     }
 
@@ -325,7 +322,6 @@ impl<T: Scalar, const SIDES: usize, const GRIDS: usize, const BVH: usize>
             grids: &mut self.grids,
             nodes: &mut self.nodes,
             entries: &mut self.entries,
-            knows_faint: &mut self.knows_faint,
         }
     }
 }

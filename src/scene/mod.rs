@@ -78,12 +78,11 @@ impl<'a, T: Scalar> Scene<'a, T> {
         self
     }
 
-    /// The scene in another ambient light.
+    /// The scene in another ambient light; drops what was derived, of which a part depends on it.
     #[must_use]
     pub const fn with_ambient(mut self, ambient: T) -> Self {
         self.ambient = ambient;
-        self.accel.knows_faint = false;
-        self
+        self.without_accel()
     }
 
     /// The scene before another background.

@@ -41,7 +41,6 @@ impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Stages::ALL.bits() }, ST
     pub const fn with_cutoff(self, cutoff: T) -> Tracer<'a, T, ALL_AND_CUTOFF, STACK> {
         Tracer {
             scene: self.scene,
-            resolution: self.resolution,
             max_depth: self.max_depth,
             cutoff,
         }
@@ -53,7 +52,6 @@ impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, ALL_AND_BVH, STACK> {
     pub const fn with_cutoff(self, cutoff: T) -> Tracer<'a, T, BVH_AND_CUTOFF, STACK> {
         Tracer {
             scene: self.scene,
-            resolution: self.resolution,
             max_depth: self.max_depth,
             cutoff,
         }

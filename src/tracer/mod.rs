@@ -70,8 +70,8 @@ pub struct Tracer<
     const NEEDS: u64 = { Stages::ALL.bits() },
     const STACK: usize = DEFAULT_MAX_DEPTH,
 > {
+    /// Its resolution is that of the picture.
     scene: Scene<'a, T>,
-    resolution: Resolution,
     max_depth: usize,
     /// Of no effect without [`Stages::CUTOFF`].
     cutoff: T,
@@ -210,7 +210,6 @@ impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Stages::ALL.bits() }, ST
     pub const fn with_bvh(self) -> Tracer<'a, T, ALL_AND_BVH, STACK> {
         Tracer {
             scene: self.scene,
-            resolution: self.resolution,
             max_depth: self.max_depth,
             cutoff: self.cutoff,
         }
@@ -228,7 +227,6 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     pub const fn with_stages(scene: Scene<'a, T>) -> Self {
         Self {
             scene,
-            resolution: scene.resolution,
             max_depth: if STACK < DEFAULT_MAX_DEPTH {
                 STACK
             } else {
@@ -242,7 +240,6 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     pub const fn with_stack<const FRAMES: usize>(self) -> Tracer<'a, T, NEEDS, FRAMES> {
         Tracer {
             scene: self.scene,
-            resolution: self.resolution,
             max_depth: if self.max_depth < FRAMES {
                 self.max_depth
             } else {
@@ -270,7 +267,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
 
     /// The same tracer with another size of the picture; what is seen keeps its height.
     pub const fn with_resolution(mut self, resolution: Resolution) -> Self {
-        self.resolution = resolution;
+        self.scene.resolution = resolution;
         self
     }
 
@@ -282,7 +279,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     /// Size of the picture.
     #[inline(always)]
     pub const fn resolution(&self) -> Resolution {
-        self.resolution
+        self.scene.resolution
     }
 
     /// How many secondary rays may follow one another.
@@ -856,15 +853,18 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
 
     /// What the pixels of a row have in common.
     pub fn scanline(&self, y: u16) -> Scanline<T> {
-        let row_height = self.scene.camera.row_height(self.resolution, y);
-        let half_width = self.scene.camera.half_width(self.resolution);
+        let row_height = self.scene.camera.row_height(self.scene.resolution, y);
+        let half_width = self.scene.camera.half_width(self.scene.resolution);
         self.scanline_of(row_height, half_width)
     }
 
     /// What the samples at a place in the pixels of a row have in common.
     pub fn scanline_at(&self, y: u16, at: Subpixel) -> Scanline<T> {
-        let row_height = self.scene.camera.row_height_at(self.resolution, y, at);
-        let half_width = self.scene.camera.half_width_at(self.resolution, at);
+        let row_height = self
+            .scene
+            .camera
+            .row_height_at(self.scene.resolution, y, at);
+        let half_width = self.scene.camera.half_width_at(self.scene.resolution, at);
         self.scanline_of(row_height, half_width)
     }
 
@@ -887,7 +887,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     pub fn primary_ray_at(&self, scanline: &Scanline<T>, x: u16, at: Subpixel) -> Ray<T> {
         self.scene
             .camera
-            .ray_at(self.resolution, scanline.row_height, x, at)
+            .ray_at(self.scene.resolution, scanline.row_height, x, at)
     }
 
     /// The linear colour of a pixel, each channel in 0…1: a pure function of scene, settings and
@@ -946,7 +946,6 @@ macro_rules! specialize {
                 }
                 Ok(Tracer {
                     scene: self.scene,
-                    resolution: self.resolution,
                     max_depth: self.max_depth,
                     cutoff: self.cutoff,
                 })

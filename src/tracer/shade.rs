@@ -92,7 +92,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
                 ray.direction.real(),
             )
             .0;
-            let faint = if self.scene.accel.knows_faint {
+            let faint = if self.scene.accel.knows_faint() {
                 hit.material.faint_alignment()
             } else {
                 0
