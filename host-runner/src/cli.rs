@@ -94,7 +94,7 @@ pub(crate) enum Command {
     /// Print a scene as it was read
     Inspect(InspectArgs),
     /// Tell what a scene asks of a device: stages, bytes, a line for firmware
-    Stages(NeedsArgs),
+    Needs(NeedsArgs),
     /// Tell how the colours of pixels come about: the tree of rays
     Pixel(PixelArgs),
     /// Compare two pictures: numbers, a picture of the differences

@@ -6,7 +6,8 @@
 use scanray::accel::{Bvh, BvhNode, Candidates, PlaneGrid};
 use scanray::shape::{Plane, Sphere, Triangle};
 use scanray::{
-    Background, Camera, DEFAULT_MAX_DEPTH, Light, Material, Resolution, Scalar, Scene, Tracer,
+    Background, Camera, DEFAULT_MAX_DEPTH, Light, Material, Resolution, Scalar, Scene, Stages,
+    Tracer,
 };
 use serde::Serialize;
 
@@ -164,15 +165,13 @@ impl DeviceMemory {
         let lists = pools
             .each_ref()
             .map(|pool| pool.entry.pool(pool.entries, word));
-        let scene_pools = Layout::record(&[&[settings], &lists[..]].concat());
-        // A slice each.
-        let view = Layout::record(&[&plain[..], &[Layout::words(2, word); 9]].concat());
-        let tracer = Layout::record(&[
-            view,
-            Layout::of::<Resolution>(),
-            Layout::words(1, word),
-            Layout::of::<T>(),
-        ]);
+        // What is derived is a record of its own.
+        let (own, derived) = lists.split_at(5);
+        let derived = Layout::record(derived);
+        let scene_pools = Layout::record(&[&[settings], own, &[derived]].concat());
+        // A slice each, of stored objects two.
+        let view = Layout::record(&[&plain[..], &[Layout::words(2, word); 11]].concat());
+        let tracer = Layout::record(&[view, Layout::words(1, word), Layout::of::<T>()]);
         let stack_frame = Layout {
             size: Tracer::<T>::FRAME_BYTES,
             align: align_of::<T>(),
@@ -201,6 +200,42 @@ impl DeviceMemory {
         }
         let capacities: Vec<_> = capacities.iter().map(usize::to_string).collect();
         format!("ScenePools<{scalar}, {}>", capacities.join(", "))
+    }
+
+    /// The same by name, with code for nothing that the scene does not need.
+    pub(crate) fn declaration(&self, needs: Stages, scalar: &str) -> String {
+        let of_scalar = if scalar == f32::NAME {
+            String::new()
+        } else {
+            format!("<{scalar}>")
+        };
+        // The first pools are those of the scene itself.
+        let pools: Vec<_> = self
+            .pools
+            .iter()
+            .take(5)
+            .filter(|pool| pool.entries > 0)
+            .map(|pool| format!("{}: {}", pool.pool, pool.entries))
+            .collect();
+        let left_out = [
+            ("reflection", Stages::REFLECTION),
+            ("refraction", Stages::REFRACTION),
+            ("specular", Stages::SPECULAR),
+        ];
+        let left_out: Vec<_> = left_out
+            .iter()
+            .filter(|(_, stage)| !needs.contains(*stage))
+            .map(|(word, _)| *word)
+            .collect();
+        let without = if left_out.is_empty() {
+            String::new()
+        } else {
+            format!(" without {}", left_out.join(", "))
+        };
+        format!(
+            "scanray::scene_pools! {{ struct Pools{of_scalar} {{ {} }}{without} }}",
+            pools.join(", ")
+        )
     }
 
     /// The tracer that has the depth, for a scene in pools.

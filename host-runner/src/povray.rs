@@ -8,7 +8,7 @@
 use std::fmt;
 use std::path::Path;
 
-use scanray::{Color, Light, MaterialDescription, Object, Resolution, Scalar, Scene, Vec3};
+use scanray::{Color, Light, MaterialDescription, Resolution, Scalar, Scene, Shape, Vec3};
 
 /// The share that a surface keeps for its own colour at least, because it is divided by.
 const LEAST_OPACITY: f64 = 1e-3;
@@ -82,7 +82,7 @@ impl<T: Scalar> fmt::Display for PovScene<'_, T> {
         }
         for object in self.scene.objects() {
             let material = self.scene.material(object.surface());
-            let shape = Shape(object);
+            let shape = Geometry(object.shape());
             let look = Look {
                 material: &material,
                 ambient: self.scene.ambient().to_f64(),
@@ -117,28 +117,33 @@ fn shell_word(option: &str, path: &Path) -> String {
 }
 
 /// The beginning of an object: its kind and geometry.
-struct Shape<'a, T>(Object<'a, T>);
+struct Geometry<T>(Shape<T>);
 
-impl<T: Scalar> fmt::Display for Shape<'_, T> {
+impl<T: Scalar> fmt::Display for Geometry<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.0 {
-            Object::Sphere(sphere) => write!(
-                f,
-                "sphere {{ {}, {:?}",
-                vector(sphere.center()),
-                sphere.radius().to_f64()
-            ),
-            Object::Plane(plane) => write!(
-                f,
-                "plane {{ {}, {:?}",
-                vector(plane.normal()),
-                plane.height().to_f64()
-            ),
-            Object::Triangle(triangle) => {
-                let [a, b, c] = triangle.vertices().map(vector);
+            Shape::Sphere { center, radius } => {
+                write!(f, "sphere {{ {}, {:?}", vector(center), radius.to_f64())
+            }
+            Shape::Plane { normal, distance } => {
+                write!(f, "plane {{ {}, {:?}", vector(normal), -distance.to_f64())
+            }
+            Shape::Triangle(vertices) => {
+                let [a, b, c] = vertices.map(vector);
                 write!(f, "triangle {{ {a}, {b}, {c}")
             }
-            // `Scene::unknown` has refused others.
+            Shape::Disc {
+                center,
+                normal,
+                radius,
+            } => write!(
+                f,
+                "disc {{ {}, {}, {:?}",
+                vector(center),
+                vector(normal),
+                radius.to_f64()
+            ),
+            // A shape that is not written would be a picture that is wrong.
             _ => Err(fmt::Error),
         }
     }

@@ -61,6 +61,8 @@ struct Report {
     pools_type: String,
     /// Rust source for firmware.
     source: String,
+    /// Pools by name, for the same scene and no other stages.
+    declaration: String,
 }
 
 #[derive(Debug, Serialize)]
@@ -118,6 +120,7 @@ fn tell<T: HostScalar>(
             memory.tracer_expression(settings.max_depth)
         ),
         pools_type,
+        declaration: memory.declaration(needs, T::NAME),
         memory,
     };
     let color = name_of(settings.color);
@@ -221,7 +224,12 @@ impl Report {
             self.width,
             by_color.join(", ")
         )?;
-        writeln!(out, "\n{}", self.source)
+        writeln!(out, "\n{}", self.source)?;
+        writeln!(
+            out,
+            "\nor by name, without what the scene does not need (let tracer = pools.tracer();):\n{}",
+            self.declaration
+        )
     }
 }
 
