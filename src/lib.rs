@@ -32,7 +32,7 @@
 //!
 //! # What a scene does not need
 //!
-//! [`Scene::needs`](Scene) is a constant function; [`tracer_for!`] compiles only the stages that a
+//! [`Scene::needs`] is a constant function; [`tracer_for!`] compiles only the stages that a
 //! `static` scene needs. At run time objects that a ray cannot meet are not tested, with the same bits: in a
 //! small scene by lists of candidates, in a large one by a bounding-volume hierarchy ([`Bvh`](accel::Bvh)), which is
 //! baked into flash or built in the pools if they have room for it.

@@ -28,7 +28,7 @@ pub enum TestKind {
     Plane,
     /// Ray against triangle, bounding ball included.
     Triangle,
-    /// Ray against a box of the tree.
+    /// Ray against a box of the hierarchy.
     Box,
 }
 
@@ -148,7 +148,7 @@ pub struct WorkCount {
     pub plane_tests: u64,
     /// Tests against triangles.
     pub triangle_tests: u64,
-    /// Tests against boxes of the tree.
+    /// Tests against boxes of the hierarchy.
     pub box_tests: u64,
 }
 
