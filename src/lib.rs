@@ -32,7 +32,7 @@
 //!
 //! # What a scene does not need
 //!
-//! [`Scene::needs`](Scene) is a constant function; [`tracer_for!`] compiles only the stages that a
+//! [`Scene::needs`] is a constant function; [`tracer_for!`] compiles only the stages that a
 //! `static` scene needs. At run time objects that a ray cannot meet are not tested, with the same bits: in a
 //! small scene by lists of candidates, in a large one by a bounding-volume hierarchy ([`Bvh`](accel::Bvh)), which is
 //! baked into flash or built in the pools if they have room for it.
@@ -53,22 +53,7 @@
 //!
 //! Camera at its position, looking along +z with +y up; local colour by Phong with shadows; reflection
 //! and refraction to a maximum depth; the colour of every ray clamped to 0…1; quantised once, straight
-//! to the display's levels. Where this goes beyond the paper it implements, or leaves it:
-//!
-//! | subject | here |
-//! |---|---|
-//! | the light's "direction" | is a position |
-//! | shadows | end at the light: objects beyond it cast none |
-//! | shading normals | face the incoming ray: surfaces have two sides |
-//! | origins of new rays | are offset by a bound derived from rounding, not by a fixed epsilon |
-//! | pixels | are sampled at their centres |
-//! | sky | from white at the nadir to (0.5, 0.7, 1) at the zenith |
-//! | the light's line with 8 numbers | the last is used twice, with a warning |
-//! | 8 bits | are rounded to, not truncated |
-//! | refraction | works (the paper bypasses it) |
-//! | triangle edges | belong to the triangle |
-//! | a light in the hit itself, or in its surface | does not light it |
-//! | the critical angle itself | refracts |
+//! to the display's levels. [`picture`] fixes all of it, and where it goes beyond the paper it implements, or leaves it.
 //!
 //! # Features
 //!
@@ -85,6 +70,9 @@ extern crate std;
 #[cfg(all(doctest, feature = "parser"))]
 #[doc = include_str!("../README.md")]
 struct Readme;
+
+// What all of it draws: documentation alone.
+pub mod picture;
 
 // The modules stand in the order of their layers: a file may use those above it, never those below.
 

@@ -23,7 +23,7 @@ pub(crate) type AllStages<'a, T> =
 type WithCutoff<'a, T> =
     Tracer<'a, T, { Stages::ALL.union(Stages::BVH).union(Stages::CUTOFF).bits() }, MAX_DEPTH>;
 
-/// Traces single rays. It can be watched; [`Drawing::pixels`](crate::drawing::Drawing::pixels) is the
+/// Traces single rays. It can be watched; [`HostPixels`](crate::host_pixels::HostPixels) is the
 /// faster way to the same pixels.
 ///
 /// As a source of pixels it is compiled once a scalar, not once more for each colour.

@@ -61,7 +61,7 @@ pub fn run() -> ExitCode {
         #[cfg(feature = "window")]
         Command::Window(args) => commands::window::run(&args),
         Command::Bake(args) => bake::run(&args),
-        Command::Stages(args) => needs::run(&args),
+        Command::Needs(args) => needs::run(&args),
         Command::Pixel(args) => pixel::run(&args),
         Command::Diff(args) => diff::run(&args),
         Command::Fmt(args) => fmt::run(&args),

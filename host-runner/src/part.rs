@@ -5,7 +5,7 @@
 //! leave them alone or show them:
 //!
 //! ```text
-//! scanray-part rows=0..60 size=160x120 step=3/36 about=0,2.5 scene=1f0c… version=0.1.0 scalar=f32 …
+//! scanray-part rows=0..60 size=160x120 step=3/36 about=0,2.5 scene=1f0c… version=0.2.0 scalar=f32 …
 //! ```
 
 use std::collections::BTreeSet;

@@ -12,7 +12,7 @@
  * It takes textbook formulas and one fixed epsilon throughout. Everything clever
  * belongs into the crate, not here.
  *
- *   gcc -O3 -march=native -o reference host-runner/benches/reference.c -lm
+ *   gcc -O3 -march=native -o reference lab/benches/reference.c -lm
  *   ./reference SCENE OUT.ppm [WxH] [MAX_DEPTH] [REPEAT]
  *
  * WxH overrides the size in the scene ("-" keeps it), MAX_DEPTH is 5 unless

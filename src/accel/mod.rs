@@ -1,4 +1,4 @@
-//! Who can meet whom: objects that a ray cannot meet are not tested. (Large scenes: [`bvh`].)
+//! Who can hit whom: objects that a ray cannot hit are not tested. (Large scenes: [`Bvh`].)
 //!
 //! The tracer asks for the *candidates* of a ray that leaves a given place (a row of the camera, a side
 //! of an object, a side towards the lights) and tests only those. A set of candidates may be too large,
@@ -10,7 +10,7 @@
 //!   a few units of rounding (in radians) of where they point, and the tests report a hit for rays that
 //!   pass an object at a few units of rounding of the distance to it: all together well below 32 units.
 //! * The margin is 128 units of rounding of `f32` of every length and coordinate that is involved, and
-//!   1/4096 of the radii ([`margin`]). `f64` uses the same.
+//!   1/4096 of the radii (`margin`). `f64` uses the same.
 //!
 //! Unbounded planes are excluded only where the argument does not depend on how far away they are met.
 

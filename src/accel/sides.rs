@@ -6,7 +6,7 @@ use crate::scalar::Scalar;
 use crate::shape::{BoundingSphere, Object, Plane, Sphere, Triangle};
 use crate::vec3::Vec3;
 
-/// The reach of the front and the back of an object.
+/// The candidates of the front and the back of an object.
 pub(super) fn sides<T: Scalar>(scene: &Source<'_, T>, object: Object<'_, T>) -> [Candidates; 2] {
     let reach = |front: bool| Candidates {
         near: Octant::ALL.map(|octant| {

@@ -1,4 +1,4 @@
-//! The formulas of the tracer, each once, over any [`Number`](crate::number::Number).
+//! The formulas of the tracer, each once, over any [`Number`].
 //!
 //! They are arithmetic alone: who calls them decides by comparing what they give. The tracer calls them with
 //! [`Real`](crate::real::Real), one ray at a time; a tracer of several rays side by side calls the same functions with lanes

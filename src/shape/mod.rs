@@ -1,6 +1,6 @@
 //! The shapes: what each is, and the one list of them.
 //!
-//! A shape implements [`Primitive`] and stands in [`for_each_shape!`], [`Kind`], [`Object`], [`Shape`] and [`Geometry`], all in
+//! A shape implements `Primitive` and stands in `for_each_shape!`, [`Kind`], [`Object`], [`Shape`] and [`Geometry`], all in
 //! this folder. Its bounds alone put it into exact visibility and the BVH.
 //!
 //! Each has `intersect(ray, t_max)`, the nearest hit within `0 < t ≤ t_max`, and

@@ -30,7 +30,7 @@ use stack::{Frame, Refracted, Stack, Throughputs, Waiting};
 /// How many secondary rays may follow one another unless the tracer is told otherwise.
 pub const DEFAULT_MAX_DEPTH: usize = 5;
 
-/// Every stage of a small scene, and the tree.
+/// Every stage of a small scene, and the hierarchy.
 const ALL_AND_BVH: u64 = Stages::ALL.union(Stages::BVH).bits();
 
 /// Whether a stage is compiled.
@@ -50,7 +50,7 @@ const fn any_stage(needs: u64, stages: Stages) -> bool {
 /// `NEEDS` are the stages that are compiled, `STACK` is the number of frames that stand for the
 /// recursion. Neither is written by hand: [`Tracer::new`] compiles all stages that a small scene may need for
 /// [`DEFAULT_MAX_DEPTH`], [`tracer_for!`](crate::tracer_for) those that a `static` scene needs, and
-/// methods change the rest. For pools with room for a tree there is [`Tracer::with_bvh`].
+/// methods change the rest. For pools with room for a hierarchy there is [`Tracer::with_bvh`].
 ///
 /// ```
 /// use scanray::{ScenePools, Tracer};
@@ -195,18 +195,18 @@ impl<T: Scalar> Closest<T> {
 }
 
 impl<'a, T: Scalar> Tracer<'a, T> {
-    /// A tracer with all stages but the tree, [`DEFAULT_MAX_DEPTH`] and the scene's own resolution.
+    /// A tracer with all stages but the hierarchy, [`DEFAULT_MAX_DEPTH`] and the scene's own resolution.
     pub const fn new(scene: Scene<'a, T>) -> Self {
         Self::with_stages(scene)
     }
 }
 
 impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Stages::ALL.bits() }, STACK> {
-    /// The same tracer, to draw large scenes the faster way: by the tree that the scene has if its pools
+    /// The same tracer, to draw large scenes the faster way: by the hierarchy that the scene has if its pools
     /// have room for one ([`ScenePools`](crate::ScenePools)). Without this every ray is tested against
     /// every object of such a scene, with the same bits; other scenes are drawn as before.
     ///
-    /// A [cut-off](Tracer::with_cutoff) is asked for after the tree.
+    /// A [cut-off](Tracer::with_cutoff) is asked for after the hierarchy.
     pub const fn with_bvh(self) -> Tracer<'a, T, ALL_AND_BVH, STACK> {
         Tracer {
             scene: self.scene,

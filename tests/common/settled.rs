@@ -2,7 +2,7 @@
 
 use scanray::{Color, Ray, Resolution, Scalar, Tracer, Vec3};
 
-/// A camera that looks along +z, as image.md says, independently of the crate's; it may have a telephoto
+/// A camera that looks along +z, as docs/picture.md says, independently of the crate's; it may have a telephoto
 /// lens or a wide-angle lens.
 #[derive(Clone, Copy, Debug)]
 pub struct View<T> {
@@ -91,7 +91,7 @@ pub fn channels<T: Scalar>(color: Color<T>) -> [f64; 3] {
     [color.r, color.g, color.b].map(Scalar::to_f64)
 }
 
-/// 8-bit levels by image.md's rule, in f64.
+/// 8-bit levels by the rule of docs/picture.md, in f64.
 pub fn levels<T: Scalar>(color: Color<T>) -> [u8; 3] {
     channels(color).map(|channel| (255.0 * channel + 0.5).floor() as u8)
 }

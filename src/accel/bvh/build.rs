@@ -1,4 +1,4 @@
-//! Making the tree, in place.
+//! Building the hierarchy, in place.
 
 use core::cell::Cell;
 
@@ -9,7 +9,7 @@ use super::{Bvh, BvhNode, NodeContent};
 use crate::scalar::Scalar;
 use crate::shape::Geometry;
 
-/// Fewer objects make no leaf, so that a tree has fewer nodes than objects.
+/// Fewer objects make no leaf, so that a hierarchy has fewer nodes than objects.
 const SMALLEST_LEAF: usize = 2;
 
 /// More objects make no leaf.
@@ -18,7 +18,7 @@ const LARGEST_LEAF: usize = 8;
 /// A node may be divided between any two of so many parts of an axis.
 const BINS: usize = 16;
 
-/// Builds the tree of the objects of `entries`, which it puts in another order.
+/// Builds the hierarchy of the objects of `entries`, which it puts in another order.
 ///
 /// Binned surface-area heuristic (Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies",
 /// 2007), breadth first: a node that may still be divided is a leaf, and dividing it appends two

@@ -21,7 +21,7 @@ impl<T> Bvh<'_, T> {
     /// The largest number of steps from the root to a leaf.
     pub const MAX_DEPTH: usize = 31;
 
-    /// With fewer bounded objects than this a tree does not pay, and none is built.
+    /// With fewer bounded objects than this a hierarchy does not pay, and none is built.
     pub const FEWEST_OBJECTS: usize = 48;
 
     /// No tree: every object of a set is tested.
@@ -30,7 +30,7 @@ impl<T> Bvh<'_, T> {
         entries: &[],
     };
 
-    /// Whether there is a tree.
+    /// Whether there is a hierarchy.
     #[inline(always)]
     pub const fn is_some(&self) -> bool {
         !self.nodes.is_empty()

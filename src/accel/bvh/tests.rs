@@ -1,4 +1,4 @@
-//! The shape of the tree; that it leaves out nothing that a ray meets is tested in tests/hits/tree.rs.
+//! The shape of the hierarchy; that it leaves out nothing that a ray meets is tested in tests/hits/tree.rs.
 
 use std::vec::Vec;
 
@@ -23,7 +23,7 @@ fn scene(spheres: &[Sphere<f32>]) -> Geometry<'_> {
     }
 }
 
-/// Builds the tree of spheres, checks all that is promised of trees, and returns how deep it is.
+/// Builds the hierarchy of spheres, checks all that is promised of it, and returns how deep it is.
 fn check(spheres: &[(Vec3<f32>, f32)]) -> usize {
     let spheres: Vec<Sphere<f32>> = spheres.iter().copied().map(sphere).collect();
     let scene = scene(&spheres);

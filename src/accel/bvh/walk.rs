@@ -7,7 +7,7 @@ use crate::ray::Ray;
 use crate::scalar::Scalar;
 use crate::vec3::Vec3;
 
-/// A walk of a ray through a tree, from leaf to leaf, roughly in the order in which the ray meets them.
+/// A walk of a ray through a hierarchy, from leaf to leaf, roughly in the order in which the ray meets them.
 pub(crate) struct Walk<'a, T> {
     tree: Bvh<'a, T>,
     axes: [Axis<T>; 3],
@@ -80,7 +80,7 @@ impl<'a, T: Scalar> Walk<'a, T> {
                 }
                 NodeContent::Inner { first, axis } => {
                     let upper_first = self.axes.get(axis)?.entry as u32;
-                    // The depth of the tree is bounded, so that there is room.
+                    // The depth of the hierarchy is bounded, so that there is room.
                     let _ = self.nodes.push(first + 1 - upper_first);
                     let _ = self.nodes.push(first + upper_first);
                 }

@@ -1,7 +1,7 @@
 //! The catalogue of stiff and extreme cases: each of its 69 cases by number and name, in `f32` and `f64`.
 //!
-//! What is measured and what is expected stands in stability/src/catalogue, which `scanray stability` prints, too.
-//! A case's figures, seeds and bounds are shown with `cargo test --test numerics case_26 -- --nocapture`;
+//! What is measured and what is expected stands in lab/stability/src/catalogue, which `scanray stability` prints, too.
+//! A case's figures, seeds and bounds are shown with `cargo test -p scanray-stability --test numerics case_26 -- --nocapture`;
 //! `SEED=7` tries other random numbers.
 
 mod geometry;
