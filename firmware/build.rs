@@ -7,7 +7,7 @@
 
 use std::{env, fs, path::Path};
 
-use scanray::{Material, Scene, ScenePools};
+use scanray::{Material, ScenePools};
 
 /// A picture as a program draws it that sets nothing.
 const DEFAULT_SETTINGS: &str = "
@@ -34,20 +34,19 @@ fn main() {
         fs::write(&file, content).unwrap_or_else(|error| panic!("{}: {error}", file.display()));
     };
     let scene = pools.as_scene();
-    let materials = match env::var("SCANRAY_POWER").as_deref() {
-        Ok("polynomial") => scene.materials.iter().map(without_squaring).collect(),
-        _ => scene.materials.to_vec(),
+    let (accel, materials) = (*scene.accel(), scene.materials());
+    let materials: Vec<_> = match env::var("SCANRAY_POWER").as_deref() {
+        Ok("polynomial") => materials.iter().map(without_squaring).collect(),
+        _ => materials.to_vec(),
     };
-    let scene = Scene {
-        materials: &materials,
-        ..scene
-    };
+    // A power of another kind changes nothing that is derived.
+    let scene = scene.with_materials(&materials).with_accel(accel);
     place("scene.rs", scanray::bake(&scene).to_string().as_bytes());
     place("scene.txt", &text);
     let without = env::var("SCANRAY_WITHOUT").unwrap_or_else(|_| "NONE".into());
     place(
         "without.rs",
-        format!("scanray::Needs::{without}").as_bytes(),
+        format!("scanray::Stages::{without}").as_bytes(),
     );
     let cutoff = env::var("SCANRAY_CUTOFF").unwrap_or_else(|_| "1.0 / 256.0".into());
     place("cutoff.rs", cutoff.as_bytes());

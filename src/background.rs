@@ -1,6 +1,8 @@
 //! What a ray sees that hits nothing.
 
 use crate::color::Color;
+use crate::formula::shading;
+use crate::real::Real;
 use crate::scalar::Scalar;
 use crate::vec3::Vec3;
 
@@ -17,12 +19,6 @@ impl<T: Scalar> Background<T> {
     /// The sky in a direction of length 1: white at the nadir, (½, 0.7, 1) at the zenith.
     #[inline(always)]
     pub fn sky(direction: Vec3<T>) -> Color<T> {
-        let s = direction.y.plus(T::ONE).halve();
-        let white = T::ONE.minus(s);
-        Color::new(
-            white.plus(s.halve()),
-            white.plus(s.times(T::from_f64(0.7))),
-            white.plus(s),
-        )
+        shading::sky(Real(direction.y)).plain()
     }
 }

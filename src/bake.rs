@@ -2,11 +2,13 @@
 
 use core::fmt;
 
+use crate::accel::{BvhNode, Candidates, NodeContent, ObjectSet, PlaneGrid, Slab};
 use crate::color::Color;
+use crate::light::Light;
 use crate::material::Material;
 use crate::scalar::Scalar;
-use crate::scene::{NodeContent, ObjectSet, Reach, Scene, Strip, TreeEntry, TreeNode, Zones};
-use crate::shape::{Plane, Sphere, Surface, Triangle};
+use crate::scene::Scene;
+use crate::shape::{Part, Primitive, Surface};
 use crate::vec3::Vec3;
 
 /// A scene as the source of a constant expression of type `Scene<'static, T>`.
@@ -22,7 +24,7 @@ use crate::vec3::Vec3;
 /// let source = scanray::bake(&pools.as_scene()).to_string();
 /// // In build.rs: std::fs::write(out_dir.join("default.rs"), source)
 /// // In the firmware: static SCENE: Scene = include!(concat!(env!("OUT_DIR"), "/default.rs"));
-/// # assert!(source.starts_with("::scanray::Scene {"));
+/// # assert!(source.starts_with("::scanray::Scene::EMPTY"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn bake<'s, T: Scalar>(scene: &'s Scene<'_, T>) -> impl fmt::Display + 's {
@@ -32,16 +34,21 @@ pub fn bake<'s, T: Scalar>(scene: &'s Scene<'_, T>) -> impl fmt::Display + 's {
 /// Something that is written as Rust source.
 struct Baked<'s, S>(&'s S);
 
-/// A list of things, each on a line of its own.
-fn list<'s, S>(f: &mut fmt::Formatter<'_>, name: &str, items: &'s [S]) -> fmt::Result
+/// A list of things, each on a line of its own, between what comes before and behind it.
+fn list<'s, S>(
+    f: &mut fmt::Formatter<'_>,
+    before: &str,
+    items: &'s [S],
+    behind: &str,
+) -> fmt::Result
 where
     Baked<'s, S>: fmt::Display,
 {
-    writeln!(f, "    {name}: &[")?;
+    writeln!(f, "    {before}&[")?;
     for item in items {
         writeln!(f, "        {},", Baked(item))?;
     }
-    writeln!(f, "    ],")
+    writeln!(f, "    ]{behind}")
 }
 
 /// A number with its type, or the name of one that has no literal.
@@ -68,46 +75,78 @@ impl<T: Scalar> fmt::Display for Number<T> {
 impl<T: Scalar> fmt::Display for Baked<'_, Scene<'_, T>> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let scene = self.0;
-        writeln!(f, "::scanray::Scene {{")?;
+        writeln!(f, "::scanray::Scene::EMPTY")?;
         writeln!(
             f,
-            "    camera: ::scanray::Camera {{ position: {} }},",
+            "    .with_camera(::scanray::Camera {{ position: {} }})",
             Baked(&scene.camera.position)
         )?;
         writeln!(
             f,
-            "    resolution: ::scanray::Resolution {{ width: {}, height: {} }},",
+            "    .with_resolution(::scanray::Resolution {{ width: {}, height: {} }})",
             scene.resolution.width, scene.resolution.height
         )?;
-        writeln!(f, "    ambient: {},", Number(scene.ambient))?;
+        writeln!(f, "    .with_ambient({})", Number(scene.ambient))?;
         writeln!(
             f,
-            "    background: ::scanray::Background {{ color: {}, sky: {} }},",
+            "    .with_background(::scanray::Background {{ color: {}, sky: {} }})",
             Baked(&scene.background.color),
             scene.background.sky
         )?;
-        writeln!(f, "    lights: &[")?;
-        for light in scene.lights {
-            writeln!(
-                f,
-                "        ::scanray::Light {{ position: {}, specular: {}, diffuse: {} }},",
-                Baked(&light.position),
-                Baked(&light.specular),
-                Baked(&light.diffuse)
-            )?;
+        let geometry = &scene.geometry;
+        list(f, ".with_lights(", scene.lights, ")")?;
+        shapes(f, "spheres", geometry.spheres)?;
+        shapes(f, "planes", geometry.planes)?;
+        shapes(f, "triangles", geometry.triangles)?;
+        list(f, ".with_materials(", scene.materials, ")")?;
+        let accel = &scene.accel;
+        writeln!(f, "    .with_accel(::scanray::accel::Accel::from_parts(")?;
+        list(f, "", accel.sides, ",")?;
+        list(f, "", accel.grids, ",")?;
+        list(f, "", accel.bvh.nodes, ",")?;
+        list(f, "", accel.bvh.entries, ",")?;
+        writeln!(f, "    {},", accel.knows_faint)?;
+        write!(f, "    ))")
+    }
+}
+
+/// The objects of one shape, if there are any.
+fn shapes<T: Scalar, P: Primitive<T>>(
+    f: &mut fmt::Formatter<'_>,
+    name: &str,
+    objects: &[P],
+) -> fmt::Result {
+    if objects.is_empty() {
+        return Ok(());
+    }
+    writeln!(f, "    .with_{name}(&[")?;
+    for object in objects {
+        let (name, parts) = object.parts();
+        write!(f, "        ::scanray::shape::{name}::from_parts(")?;
+        for part in parts.into_iter().flatten() {
+            match part {
+                Part::Number(number) => write!(f, "{}, ", Number(number))?,
+                Part::Vector(vector) => write!(f, "{}, ", Baked(&vector))?,
+                Part::Vectors([a, b, c]) => {
+                    write!(f, "[{}, {}, {}], ", Baked(&a), Baked(&b), Baked(&c))?;
+                }
+            }
         }
-        writeln!(f, "    ],")?;
-        list(f, "spheres", scene.spheres)?;
-        list(f, "planes", scene.planes)?;
-        list(f, "triangles", scene.triangles)?;
-        list(f, "materials", scene.materials)?;
-        list(f, "sides", scene.sides)?;
-        list(f, "zones", scene.zones)?;
-        writeln!(f, "    tree: ::scanray::Tree {{")?;
-        list(f, "nodes", scene.tree.nodes)?;
-        list(f, "entries", scene.tree.entries)?;
-        writeln!(f, "    }},")?;
-        write!(f, "}}")
+        writeln!(f, "{}),", Baked(&object.surface()))?;
+    }
+    writeln!(f, "    ])")
+}
+
+impl<T: Scalar> fmt::Display for Baked<'_, Light<T>> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let light = self.0;
+        write!(
+            f,
+            "::scanray::Light {{ position: {}, specular: {}, diffuse: {} }}",
+            Baked(&light.position),
+            Baked(&light.specular),
+            Baked(&light.diffuse)
+        )
     }
 }
 
@@ -147,53 +186,6 @@ impl fmt::Display for Baked<'_, Surface> {
     }
 }
 
-impl<T: Scalar> fmt::Display for Baked<'_, Sphere<T>> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let sphere = self.0;
-        write!(
-            f,
-            "::scanray::shape::Sphere::from_parts({}, {}, {}, {}, {})",
-            Baked(&sphere.center()),
-            Number(sphere.radius_squared()),
-            Number(sphere.radius()),
-            Number(sphere.offset()),
-            Baked(&sphere.surface())
-        )
-    }
-}
-
-impl<T: Scalar> fmt::Display for Baked<'_, Plane<T>> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let plane = self.0;
-        write!(
-            f,
-            "::scanray::shape::Plane::from_parts({}, {}, {})",
-            Baked(&plane.normal()),
-            Number(plane.height()),
-            Baked(&plane.surface())
-        )
-    }
-}
-
-impl<T: Scalar> fmt::Display for Baked<'_, Triangle<T>> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let triangle = self.0;
-        let [v1, v2, v3] = triangle.vertices();
-        write!(
-            f,
-            "::scanray::shape::Triangle::from_parts([{}, {}, {}], {}, {}, {}, {}, {})",
-            Baked(&v1),
-            Baked(&v2),
-            Baked(&v3),
-            Baked(&triangle.normal()),
-            Baked(&triangle.ball_center()),
-            Number(triangle.ball_radius_squared()),
-            Number(triangle.offset()),
-            Baked(&triangle.surface())
-        )
-    }
-}
-
 impl<T: Scalar> fmt::Display for Baked<'_, Material<T>> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let material = self.0;
@@ -218,24 +210,24 @@ impl<T: Scalar> fmt::Display for Baked<'_, Material<T>> {
     }
 }
 
-impl<T: Scalar> fmt::Display for Baked<'_, Zones<T>> {
+impl<T: Scalar> fmt::Display for Baked<'_, PlaneGrid<T>> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Zones {
+        let PlaneGrid {
             normal_axis,
             low,
             density,
-            strips,
+            slabs,
         } = self.0;
         let [[low_u, low_v], [density_u, density_v]] = [low, density].map(|pair| pair.map(Number));
         writeln!(
             f,
-            "::scanray::Zones {{ normal_axis: {normal_axis}, low: [{low_u}, {low_v}], \
-             density: [{density_u}, {density_v}], strips: ["
+            "::scanray::accel::PlaneGrid {{ normal_axis: {normal_axis}, low: [{low_u}, {low_v}], \
+             density: [{density_u}, {density_v}], slabs: ["
         )?;
-        for axis in strips {
+        for axis in slabs {
             writeln!(f, "            [")?;
-            for strip in axis {
-                writeln!(f, "                {},", Baked(strip))?;
+            for slab in axis {
+                writeln!(f, "                {},", Baked(slab))?;
             }
             writeln!(f, "            ],")?;
         }
@@ -243,15 +235,15 @@ impl<T: Scalar> fmt::Display for Baked<'_, Zones<T>> {
     }
 }
 
-impl fmt::Display for Baked<'_, Strip> {
+impl fmt::Display for Baked<'_, Slab> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Strip {
+        let Slab {
             ahead: [up, down],
             occluders,
         } = self.0;
         write!(
             f,
-            "::scanray::Strip {{ ahead: [{}, {}], occluders: {} }}",
+            "::scanray::accel::Slab {{ ahead: [{}, {}], occluders: {} }}",
             Baked(up),
             Baked(down),
             Baked(occluders)
@@ -259,14 +251,14 @@ impl fmt::Display for Baked<'_, Strip> {
     }
 }
 
-impl fmt::Display for Baked<'_, Reach> {
+impl fmt::Display for Baked<'_, Candidates> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Reach {
+        let Candidates {
             near,
             occluders,
             shadowed,
         } = self.0;
-        write!(f, "::scanray::Reach {{ near: [")?;
+        write!(f, "::scanray::accel::Candidates {{ near: [")?;
         for set in near {
             write!(f, "{}, ", Baked(set))?;
         }
@@ -278,12 +270,12 @@ impl fmt::Display for Baked<'_, Reach> {
     }
 }
 
-impl<T: Scalar> fmt::Display for Baked<'_, TreeNode<T>> {
+impl<T: Scalar> fmt::Display for Baked<'_, BvhNode<T>> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let node = self.0;
         write!(
             f,
-            "::scanray::TreeNode::new({}, {}, ::scanray::NodeContent::",
+            "::scanray::accel::BvhNode::new({}, {}, ::scanray::accel::NodeContent::",
             Baked(&node.low()),
             Baked(&node.high())
         )?;
@@ -298,19 +290,18 @@ impl<T: Scalar> fmt::Display for Baked<'_, TreeNode<T>> {
     }
 }
 
-impl fmt::Display for Baked<'_, TreeEntry> {
+impl fmt::Display for Baked<'_, u32> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let shape = if self.0.is_triangle() {
-            "triangle"
-        } else {
-            "sphere"
-        };
-        write!(f, "::scanray::TreeEntry::{shape}({})", self.0.index())
+        self.0.fmt(f)
     }
 }
 
 impl fmt::Display for Baked<'_, ObjectSet> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "::scanray::ObjectSet::from_bits({:#x})", self.0.bits())
+        write!(
+            f,
+            "::scanray::accel::ObjectSet::from_bits({:#x})",
+            self.0.bits()
+        )
     }
 }

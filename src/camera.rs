@@ -1,6 +1,8 @@
 //! The camera: looks along +z, with +y up and +x to the right.
 
+use crate::formula;
 use crate::ray::Ray;
+use crate::real::Real;
 use crate::scalar::Scalar;
 use crate::vec3::Vec3;
 
@@ -88,9 +90,10 @@ impl<T: Scalar> Camera<T> {
     ) -> Ray<T> {
         let of = i32::from(at.of);
         let column = i32::from(column) * of + i32::from(at.column);
-        let x = T::from_i32(2 * column + 1 - i32::from(resolution.width) * of)
-            / T::from_i32(i32::from(resolution.height) * of);
-        Ray::new(self.position, Vec3::new(x, row_height, T::ONE).normalize())
+        let column = T::from_i32(2 * column + 1 - i32::from(resolution.width) * of);
+        let height = T::from_i32(i32::from(resolution.height) * of);
+        let direction = formula::camera::direction(Real(column), Real(height), Real(row_height));
+        Ray::new(self.position, direction.plain())
     }
 }
 

@@ -2,6 +2,7 @@
 
 use core::ops::{Add, Mul};
 
+use crate::number::Number;
 use crate::scalar::Scalar;
 
 /// A linear colour or light intensity; 0 is black, 1 the display's brightest. Scene data may exceed
@@ -43,18 +44,6 @@ impl<T: Scalar> Color<T> {
         self.r.is_zero() && self.g.is_zero() && self.b.is_zero()
     }
 
-    /// The same number in all channels.
-    #[inline(always)]
-    fn splat(channel: T) -> Self {
-        Self::new(channel, channel, channel)
-    }
-
-    /// All channels have the same bits: light without a hue is common.
-    #[inline(always)]
-    fn is_grey(self) -> bool {
-        self.r.is_same(self.g) && self.r.is_same(self.b)
-    }
-
     /// All channels are finite.
     pub fn is_finite(self) -> bool {
         self.r.is_finite() && self.g.is_finite() && self.b.is_finite()
@@ -67,7 +56,21 @@ impl<T: Scalar> Color<T> {
     }
 }
 
-impl<T: Scalar> Add for Color<T> {
+impl<N: Number> Color<N> {
+    /// The same number in all channels.
+    #[inline(always)]
+    fn splat(channel: N) -> Self {
+        Self::new(channel, channel, channel)
+    }
+
+    /// One product stands for those of all channels: light without a hue is common.
+    #[inline(always)]
+    fn is_surely_grey(self) -> bool {
+        N::are_surely_same([self.r, self.g, self.b])
+    }
+}
+
+impl<N: Number> Add for Color<N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -80,11 +83,11 @@ impl<T: Scalar> Add for Color<T> {
 }
 
 /// Componentwise: light of one colour on a surface of another.
-impl<T: Scalar> Mul for Color<T> {
+impl<N: Number> Mul for Color<N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        if T::EMULATED && self.is_grey() && other.is_grey() {
+        if self.is_surely_grey() && other.is_surely_grey() {
             return Self::splat(self.r.times(other.r));
         }
         Self::new(
@@ -95,11 +98,11 @@ impl<T: Scalar> Mul for Color<T> {
     }
 }
 
-impl<T: Scalar> Mul<T> for Color<T> {
+impl<N: Number> Mul<N> for Color<N> {
     type Output = Self;
     #[inline(always)]
-    fn mul(self, factor: T) -> Self {
-        if T::EMULATED && self.is_grey() {
+    fn mul(self, factor: N) -> Self {
+        if self.is_surely_grey() {
             return Self::splat(self.r.times(factor));
         }
         Self::new(

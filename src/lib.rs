@@ -34,7 +34,7 @@
 //!
 //! [`Scene::needs`](Scene) is a constant function; [`tracer_for!`] compiles only the stages that a
 //! `static` scene needs. At run time objects that a ray cannot meet are not tested, with the same bits: in a
-//! small scene by lists of candidates, in a large one by a bounding-volume hierarchy ([`Tree`]), which is
+//! small scene by lists of candidates, in a large one by a bounding-volume hierarchy ([`Bvh`](accel::Bvh)), which is
 //! baked into flash or built in the pools if they have room for it.
 //!
 //! # More or less
@@ -91,11 +91,19 @@ struct Readme;
 // Numbers, vectors, colours.
 mod soft_float;
 
+pub mod number;
+
 mod scalar;
 
 mod vec3;
 
 mod color;
+
+pub mod real;
+
+pub mod formula;
+
+mod stages;
 
 // Geometry.
 mod ray;
@@ -111,10 +119,13 @@ mod camera;
 
 mod background;
 
+// What is known of a scene before the first ray.
+pub mod accel;
+
 mod scene;
 
-// What is known of a scene before the first ray.
-mod visibility;
+#[macro_use]
+pub mod pools;
 
 // Scenes from text, to text and to Rust source.
 #[cfg(feature = "parser")]
@@ -131,6 +142,7 @@ mod tracer;
 
 mod render;
 
+pub use accel::ObjectSet;
 pub use background::Background;
 #[cfg(feature = "bake")]
 pub use bake::bake;
@@ -138,21 +150,23 @@ pub use camera::{Camera, Resolution, Subpixel};
 pub use color::Color;
 pub use light::Light;
 pub use material::{Interface, Material, MaterialDescription};
+pub use number::Number;
 #[cfg(feature = "parser")]
 pub use parser::{DecimalError, Excerpt, Expected, Found, FromDecimal, ParseError, Range, Report};
+pub use pools::{Pool, PoolUse, PoolsMut, SceneError, ScenePools};
 #[cfg(feature = "print")]
 pub use print::{PrintError, print};
-pub use ray::{ObjectNumber, Ray, Side, origin_offset};
+pub use ray::{ObjectNumber, Ray, Side};
+pub use real::Real;
 pub use render::{
     Adaptive, AdaptiveScanline, Budget, CenterSample, DisplayColor, Dithered, Exact, Frame,
     Picture, PixelSource, Progress, Progressive, Quantizer, SampleSource, Supersampled,
     ThroughRgb888, differ,
 };
 pub use scalar::Scalar;
-pub use scene::{
-    Needs, NodeContent, Object, ObjectSet, Octant, Pool, PoolUse, PoolsMut, Reach, Scene,
-    SceneError, ScenePools, Strip, Tree, TreeEntry, TreeNode, Zones,
-};
+pub use scene::Scene;
+pub use shape::{Object, Shape};
+pub use stages::Stages;
 pub use tracer::{
     DEFAULT_MAX_DEPTH, DepthError, LightAtHit, Meeting, MissingStages, Nearest, Observer, RayCount,
     RayKind, Scanline, TestKind, Tracer, WorkCount,

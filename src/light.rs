@@ -13,3 +13,12 @@ pub struct Light<T = f32> {
     /// Intensity of diffuse light.
     pub diffuse: Color<T>,
 }
+
+impl<T: crate::scalar::Scalar> Light<T> {
+    /// White light of intensity 1 at the origin.
+    pub const WHITE: Self = Self {
+        position: Vec3::new(T::ZERO, T::ZERO, T::ZERO),
+        specular: Color::new(T::ONE, T::ONE, T::ONE),
+        diffuse: Color::new(T::ONE, T::ONE, T::ONE),
+    };
+}

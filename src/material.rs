@@ -1,6 +1,7 @@
 //! What a surface is made of.
 
 use crate::color::Color;
+use crate::real::Real;
 use crate::scalar::Scalar;
 
 /// The numbers that describe a material, as scene text gives them. All are ≥ 0; only the index of
@@ -27,7 +28,8 @@ pub struct MaterialDescription<T = f32> {
 ///
 /// Invariants: `inverse_index` is `1/n` and `bend` is `n² − 1` of the index of refraction `n` of a material
 /// that refracts; `whole_shininess` is the shininess if that is a whole number that repeated squaring may
-/// raise, else [`Material::FRACTIONAL`]; `faint_alignment` is 0 or belongs to the scene's lights.
+/// raise, else [`Material::FRACTIONAL`]; `faint_alignment` is 0 or belongs to a scene's lights, and is used only
+/// where [`Accel`](crate::accel::Accel) says that it does to this one's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material<T = f32> {
     description: MaterialDescription<T>,
@@ -87,8 +89,8 @@ impl<T: Scalar> Material<T> {
         }
     }
 
-    pub(crate) fn set_faint_alignment(&mut self, alignment: T) {
-        self.faint_alignment = alignment.upper_half();
+    pub(crate) fn set_faint_alignment(&mut self, alignment: i16) {
+        self.faint_alignment = alignment;
     }
 
     /// The numbers it was made from.
@@ -121,10 +123,7 @@ impl<T: Scalar> Material<T> {
     pub fn leaving(&self) -> Interface<T> {
         Interface {
             eta: self.description.index_of_refraction,
-            bend: -self
-                .bend
-                .times(self.inverse_index)
-                .times(self.inverse_index),
+            bend: (-Real(self.bend) * Real(self.inverse_index) * Real(self.inverse_index)).0,
         }
     }
 

@@ -6,8 +6,8 @@ use crate::color::Color;
 use crate::light::Light;
 use crate::material::MaterialDescription;
 use crate::scalar::Scalar;
-use crate::scene::{Object, Scene};
-use crate::shape::{Plane, Surface};
+use crate::scene::Scene;
+use crate::shape::{Object, Plane, Surface};
 use crate::vec3::Vec3;
 
 /// A scene as text in the numeric dialect, one record a line, every number with the fewest digits that read
@@ -256,23 +256,8 @@ mod tests {
 
     #[test]
     fn more_than_one_light_is_an_error() {
-        let scene = Scene::<f32> {
-            camera: Default::default(),
-            resolution: crate::camera::Resolution {
-                width: 1,
-                height: 1,
-            },
-            ambient: 0.0,
-            background: Default::default(),
-            lights: &[Light::default(), Light::default()],
-            spheres: &[],
-            planes: &[],
-            triangles: &[],
-            materials: &[],
-            sides: &[],
-            zones: &[],
-            tree: crate::scene::Tree::NONE,
-        };
+        let lights = [Light::default(), Light::default()];
+        let scene = Scene::<f32>::EMPTY.with_lights(&lights);
         assert_eq!(
             print(&scene).err(),
             Some(PrintError::TooManyLights { lights: 2 })

@@ -1,5 +1,7 @@
 //! Rays, and where a ray that leaves a surface starts.
 
+use crate::formula::{self, optics};
+use crate::real::Real;
 use crate::scalar::Scalar;
 use crate::vec3::Vec3;
 
@@ -73,17 +75,88 @@ impl<T: Scalar> Ray<T> {
     /// The point at distance `t`.
     #[inline(always)]
     pub fn at(&self, t: T) -> Vec3<T> {
-        self.origin + self.direction * t
+        formula::at(self.origin, self.direction, t)
     }
 }
 
-/// How far from a surface a new ray must start so that no rounding puts its origin on the wrong side.
-///
-/// `e = 2u (Σ|nᵢPᵢ| + extent)` with `u = 2⁻²³` (2⁻⁵²), where `Σ|nᵢPᵢ|` (`components`) bounds the
-/// rounding of the hit point along the normal and `extent` that of the object's own intersection test:
-/// the radius, the plane's distance or the largest coordinate of the vertices. In the manner of
-/// Wächter and Binder (Ray Tracing Gems, ch. 6) and pbrt-v4, section 6.8.6.
-#[inline(always)]
-pub fn origin_offset<T: Scalar>(components: T, extent: T) -> T {
-    T::TWO * T::EPSILON * (components + extent)
+impl<T: Scalar> Vec3<T> {
+    /// The mirror direction of the unit vector `self` at a surface with unit normal `normal`.
+    #[inline(always)]
+    pub fn reflect(self, normal: Self) -> Self {
+        self.reflect_at(normal, -self.dot(normal))
+    }
+
+    /// [`Vec3::reflect`] where `cosine = −self·normal` is known.
+    #[inline(always)]
+    pub(crate) fn reflect_at(self, normal: Self, cosine: T) -> Self {
+        optics::mirror(self.real(), normal.real(), Real(cosine)).plain()
+    }
+
+    /// The refracted direction of the unit vector `self`, or `None` at total internal reflection.
+    ///
+    /// `normal` is the unit normal on the side the ray comes from, `eta` the ratio of the index of
+    /// refraction on that side to the one beyond, and `bend = 1/eta² − 1`: see [`optics::beyond_critical`].
+    #[inline]
+    pub fn refract(self, normal: Self, eta: T, bend: T) -> Option<Self> {
+        self.refract_at(normal, -self.dot(normal), eta, bend)
+    }
+
+    /// [`Vec3::refract`] where `cosine = −self·normal` is known.
+    #[inline]
+    pub(crate) fn refract_at(self, normal: Self, cosine: T, eta: T, bend: T) -> Option<Self> {
+        let k = optics::beyond_critical(Real(cosine), Real(bend));
+        // NaN counts as total reflection, so that no direction without a length leaves here.
+        if !k.0.is_zero_or_positive() {
+            return None;
+        }
+        let direction = optics::refract(self.real(), normal.real(), Real(cosine), k, Real(eta));
+        if optics::drift(direction)
+            .0
+            .is_before(T::EPSILON * T::from_i32(256))
+        {
+            Some(optics::renormalize(direction).plain())
+        } else {
+            // Only an extreme index cancels enough to come here, or even to end on the wrong side.
+            let (unit, _) = direction.plain().try_normalize()?;
+            (unit.dot(normal) < T::ZERO).then_some(unit)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reflection_keeps_length_over_many_bounces() {
+        let mut direction = Vec3::new(0.6_f32, -0.48, 0.64);
+        for step in 0..1000_i32 {
+            let (normal, _) = Vec3::new(f32::from_i32(step % 7) - 3.2, 1.0, 0.3)
+                .try_normalize()
+                .unwrap();
+            direction = direction.reflect(normal);
+            assert!((direction.dot(direction).sqrt() - 1.0).abs() <= 2e-7);
+        }
+    }
+
+    #[test]
+    fn refraction_bends_by_snell_and_reflects_totally_beyond_the_critical_angle() {
+        let normal = Vec3::new(0.0_f64, 1.0, 0.0);
+        let (sine, cosine) = (0.6, 0.8);
+        let incoming = Vec3::new(sine, -cosine, 0.0);
+        // Into glass: the sine shrinks by the index.
+        let index = 1.5;
+        let inside = incoming
+            .refract(normal, 1.0 / index, (index - 1.0) * (index + 1.0))
+            .unwrap();
+        assert!((inside.x - sine / index).abs() < 1e-15);
+        // Out of glass: beyond asin(1/1.5) nothing leaves.
+        let bend = (1.0 / index) * (1.0 / index) - 1.0;
+        assert_eq!(
+            incoming.refract(normal, index, bend).map(|d| d.x > 0.89),
+            Some(true)
+        );
+        let steep = Vec3::new(0.7, -(1.0_f64 - 0.49).sqrt(), 0.0);
+        assert_eq!(steep.refract(normal, index, bend), None);
+    }
 }

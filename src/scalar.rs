@@ -4,8 +4,9 @@
 //! same IEEE 754 arithmetic (`+ − × ÷ √`, in source order, never fused) on every machine.
 
 use core::fmt::{Debug, Display};
-use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use core::ops::{AddAssign, SubAssign};
 
+use crate::number::Number;
 use crate::soft_float;
 
 mod sealed {
@@ -16,8 +17,7 @@ mod sealed {
 
 /// A binary floating-point number: `f32` or `f64`.
 ///
-/// The trait is sealed. All operations are correctly rounded, except [`Scalar::powi`], which rounds
-/// each of its products, and [`Scalar::powf`], whose error is stated there.
+/// The trait is sealed. All operations are correctly rounded, except [`Scalar::powf`], whose error is stated there.
 pub trait Scalar:
     sealed::Sealed
     + Copy
@@ -29,11 +29,7 @@ pub trait Scalar:
     + Send
     + Sync
     + 'static
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
+    + Number
     + AddAssign
     + SubAssign
 {
@@ -59,8 +55,6 @@ pub trait Scalar:
     const SMALLEST_TO_SQUARE: Self;
     /// The distance from 1 to the next larger number: 2⁻²³ or 2⁻⁵². Error bounds are multiples of it.
     const EPSILON: Self;
-    /// `2^⌈p/2⌉ + 1` for a significand of `p` bits: Dekker's constant that splits a number in halves.
-    const SPLITTER: Self;
     /// The largest whole exponent that repeated squaring still raises well within a display level.
     const MAX_SQUARED_EXPONENT: u16;
 
@@ -86,35 +80,12 @@ pub trait Scalar:
     /// negative are in its order.
     fn upper_half(self) -> i16;
 
-    /// Absolute value.
-    fn abs(self) -> Self;
-
     /// The sign bit is set.
     fn is_negative(self) -> bool;
-
-    /// Correctly rounded square root; NaN below zero.
-    fn sqrt(self) -> Self;
 
     /// `self^exponent` for `self` in 0…1 and `exponent ≥ 0`, to an absolute error of 1e-6 (`f32`) or
     /// 1e-15 (`f64`). `f32` uses no double-precision operation.
     fn powf(self, exponent: Self) -> Self;
-
-    /// `self^exponent` by repeated squaring; `x⁰ = 1`.
-    #[inline(always)]
-    fn powi(self, exponent: u16) -> Self {
-        let (mut base, mut exponent) = (self, exponent);
-        let mut power = Self::ONE;
-        loop {
-            if exponent & 1 != 0 {
-                power = power.times(base);
-            }
-            exponent >>= 1;
-            if exponent == 0 {
-                return power;
-            }
-            base = base.times(base);
-        }
-    }
 
     /// Neither infinite nor NaN.
     fn is_finite(self) -> bool;
@@ -179,42 +150,6 @@ pub trait Scalar:
         self == Self::ONE
     }
 
-    /// `2·self`.
-    #[inline(always)]
-    fn double(self) -> Self {
-        Self::TWO * self
-    }
-
-    /// `½·self`.
-    #[inline(always)]
-    fn halve(self) -> Self {
-        Self::HALF * self
-    }
-
-    /// `self·other`: for those products of which there are many.
-    #[inline(always)]
-    fn times(self, other: Self) -> Self {
-        self * other
-    }
-
-    /// `self + other`: for those sums of which there are many.
-    #[inline(always)]
-    fn plus(self, other: Self) -> Self {
-        self + other
-    }
-
-    /// `self − other`: for those differences of which there are many.
-    #[inline(always)]
-    fn minus(self, other: Self) -> Self {
-        self - other
-    }
-
-    /// `self/other`.
-    #[inline(always)]
-    fn over(self, other: Self) -> Self {
-        self / other
-    }
-
     /// The larger of two numbers; the other one when `self` is NaN.
     #[inline(always)]
     fn max(self, other: Self) -> Self {
@@ -235,6 +170,109 @@ pub trait Scalar:
     }
 }
 
+impl Number for f32 {
+    const ULP: f64 = f32::EPSILON as f64;
+    const SPLIT: f64 = 4097.0;
+
+    #[inline(always)]
+    fn constant(self, value: f64) -> Self {
+        value as f32
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f32::abs(self)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        if <Self as Scalar>::EMULATED {
+            soft_float::square_root(self)
+        } else {
+            hardware_sqrt(self)
+        }
+    }
+
+    #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        if <Self as Scalar>::EMULATED {
+            soft_float::multiply(self, other)
+        } else {
+            self * other
+        }
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        if <Self as Scalar>::EMULATED {
+            soft_float::add(self, other)
+        } else {
+            self + other
+        }
+    }
+
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        if <Self as Scalar>::EMULATED {
+            soft_float::add(self, -other)
+        } else {
+            self - other
+        }
+    }
+
+    #[inline(always)]
+    fn over(self, other: Self) -> Self {
+        if <Self as Scalar>::EMULATED {
+            soft_float::divide(self, other)
+        } else {
+            self / other
+        }
+    }
+
+    #[inline(always)]
+    fn double(self) -> Self {
+        if <Self as Scalar>::EMULATED {
+            soft_float::double(self)
+        } else {
+            2.0 * self
+        }
+    }
+
+    #[inline(always)]
+    fn halve(self) -> Self {
+        if <Self as Scalar>::EMULATED {
+            soft_float::halve(self)
+        } else {
+            0.5 * self
+        }
+    }
+
+    #[inline(always)]
+    fn are_surely_same([r, g, b]: [Self; 3]) -> bool {
+        <Self as Scalar>::EMULATED && r.is_same(g) && r.is_same(b)
+    }
+}
+
+impl Number for f64 {
+    const ULP: f64 = f64::EPSILON;
+    const SPLIT: f64 = 134_217_729.0;
+
+    #[inline(always)]
+    fn constant(self, value: f64) -> Self {
+        value
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f64::abs(self)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        libm::sqrt(self)
+    }
+}
+
 impl Scalar for f32 {
     const NAME: &'static str = "f32";
     const EMULATED: bool = cfg!(any(
@@ -250,7 +288,6 @@ impl Scalar for f32 {
     const MIN_POSITIVE: Self = f32::MIN_POSITIVE;
     const SMALLEST_TO_SQUARE: Self = f32::from_bits(64 << 23);
     const EPSILON: Self = f32::EPSILON;
-    const SPLITTER: Self = 4097.0;
     const MAX_SQUARED_EXPONENT: u16 = 1024;
 
     #[inline(always)]
@@ -275,7 +312,7 @@ impl Scalar for f32 {
 
     #[inline(always)]
     fn to_u32(self) -> u32 {
-        if Self::EMULATED {
+        if <Self as Scalar>::EMULATED {
             soft_float::to_u32(self)
         } else {
             self as u32
@@ -284,7 +321,7 @@ impl Scalar for f32 {
 
     #[inline(always)]
     fn to_i32(self) -> i32 {
-        if Self::EMULATED {
+        if <Self as Scalar>::EMULATED {
             soft_float::to_i32(self)
         } else {
             self as i32
@@ -294,11 +331,6 @@ impl Scalar for f32 {
     #[inline(always)]
     fn upper_half(self) -> i16 {
         (self.to_bits() >> 16) as i16
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        f32::abs(self)
     }
 
     // As integers positive numbers are in their order, below infinity, NaN and all negative numbers: a
@@ -322,22 +354,13 @@ impl Scalar for f32 {
         self.is_sign_negative()
     }
 
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        if Self::EMULATED {
-            soft_float::square_root(self)
-        } else {
-            hardware_sqrt(self)
-        }
-    }
-
     fn powf(self, exponent: Self) -> Self {
         exp2(exponent * log2(self))
     }
 
     #[inline(always)]
     fn is_finite(self) -> bool {
-        if Self::EMULATED {
+        if <Self as Scalar>::EMULATED {
             soft_float::is_finite(self)
         } else {
             f32::is_finite(self)
@@ -362,7 +385,7 @@ impl Scalar for f32 {
 
     #[inline(always)]
     fn is_positive(self) -> bool {
-        if Self::EMULATED {
+        if <Self as Scalar>::EMULATED {
             soft_float::is_positive(self)
         } else {
             self > 0.0
@@ -371,7 +394,7 @@ impl Scalar for f32 {
 
     #[inline(always)]
     fn is_zero_or_positive(self) -> bool {
-        if Self::EMULATED {
+        if <Self as Scalar>::EMULATED {
             soft_float::is_zero_or_positive(self)
         } else {
             self >= 0.0
@@ -389,7 +412,7 @@ impl Scalar for f32 {
 
     #[inline(always)]
     fn is_before(self, other: Self) -> bool {
-        if Self::EMULATED {
+        if <Self as Scalar>::EMULATED {
             soft_float::is_before(self, other)
         } else {
             self < other
@@ -398,7 +421,7 @@ impl Scalar for f32 {
 
     #[inline(always)]
     fn is_up_to(self, other: Self) -> bool {
-        if Self::EMULATED {
+        if <Self as Scalar>::EMULATED {
             soft_float::is_up_to(self, other)
         } else {
             self <= other
@@ -407,7 +430,7 @@ impl Scalar for f32 {
 
     #[inline(always)]
     fn is_zero(self) -> bool {
-        if Self::EMULATED {
+        if <Self as Scalar>::EMULATED {
             soft_float::is_zero(self)
         } else {
             self == 0.0
@@ -416,7 +439,7 @@ impl Scalar for f32 {
 
     #[inline(always)]
     fn are_zero(self, other: Self) -> bool {
-        if Self::EMULATED {
+        if <Self as Scalar>::EMULATED {
             soft_float::are_zero(self, other)
         } else {
             self == 0.0 && other == 0.0
@@ -425,64 +448,10 @@ impl Scalar for f32 {
 
     #[inline(always)]
     fn is_one(self) -> bool {
-        if Self::EMULATED {
+        if <Self as Scalar>::EMULATED {
             soft_float::is_one(self)
         } else {
             self == 1.0
-        }
-    }
-
-    #[inline(always)]
-    fn times(self, other: Self) -> Self {
-        if Self::EMULATED {
-            soft_float::multiply(self, other)
-        } else {
-            self * other
-        }
-    }
-
-    #[inline(always)]
-    fn plus(self, other: Self) -> Self {
-        if Self::EMULATED {
-            soft_float::add(self, other)
-        } else {
-            self + other
-        }
-    }
-
-    #[inline(always)]
-    fn minus(self, other: Self) -> Self {
-        if Self::EMULATED {
-            soft_float::add(self, -other)
-        } else {
-            self - other
-        }
-    }
-
-    #[inline(always)]
-    fn over(self, other: Self) -> Self {
-        if Self::EMULATED {
-            soft_float::divide(self, other)
-        } else {
-            self / other
-        }
-    }
-
-    #[inline(always)]
-    fn double(self) -> Self {
-        if Self::EMULATED {
-            soft_float::double(self)
-        } else {
-            2.0 * self
-        }
-    }
-
-    #[inline(always)]
-    fn halve(self) -> Self {
-        if Self::EMULATED {
-            soft_float::halve(self)
-        } else {
-            0.5 * self
         }
     }
 }
@@ -499,7 +468,6 @@ impl Scalar for f64 {
     const MIN_POSITIVE: Self = f64::MIN_POSITIVE;
     const SMALLEST_TO_SQUARE: Self = f64::from_bits(512 << 52);
     const EPSILON: Self = f64::EPSILON;
-    const SPLITTER: Self = 134_217_729.0;
     const MAX_SQUARED_EXPONENT: u16 = u16::MAX - 1;
 
     #[inline(always)]
@@ -538,11 +506,6 @@ impl Scalar for f64 {
     }
 
     #[inline(always)]
-    fn abs(self) -> Self {
-        f64::abs(self)
-    }
-
-    #[inline(always)]
     fn is_clamped(self) -> bool {
         self.to_bits() <= 1.0_f64.to_bits()
     }
@@ -550,11 +513,6 @@ impl Scalar for f64 {
     #[inline(always)]
     fn is_negative(self) -> bool {
         self.is_sign_negative()
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        libm::sqrt(self)
     }
 
     fn powf(self, exponent: Self) -> Self {
@@ -669,16 +627,6 @@ mod tests {
             }
         }
         assert!(worst < 1e-6, "worst absolute error {worst:e}");
-    }
-
-    #[test]
-    fn whole_powers_are_those_of_the_standard_library() {
-        for exponent in [0_u16, 1, 2, 3, 50, 255, 1024] {
-            for base in [0.0_f64, 0.1, 0.5, 0.99, 0.9999, 1.0] {
-                let exact = base.powi(i32::from(exponent));
-                assert!((Scalar::powi(base, exponent) - exact).abs() < 1e-12);
-            }
-        }
     }
 
     #[test]

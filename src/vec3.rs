@@ -1,7 +1,8 @@
-//! Vectors and points in three dimensions, and the two directions a surface sends a ray in.
+//! Vectors and points in three dimensions.
 
 use core::ops::{Add, Mul, Neg, Sub};
 
+use crate::number::Number;
 use crate::scalar::Scalar;
 
 /// A vector or point: `x` to the right, `y` up, `z` into the picture.
@@ -30,22 +31,52 @@ impl<T> Vec3<T> {
     }
 }
 
-impl<T: Scalar> Vec3<T> {
+impl<N: Number> Vec3<N> {
     /// The same component three times.
     #[inline(always)]
-    pub fn splat(component: T) -> Self {
+    pub fn splat(component: N) -> Self {
         Self::new(component, component, component)
+    }
+
+    #[inline(always)]
+    fn components(self) -> [N; 3] {
+        [self.x, self.y, self.z]
     }
 
     /// Scalar product, summed from left to right.
     #[inline(always)]
-    pub fn dot(self, other: Self) -> T {
-        self.x
-            .times(other.x)
-            .plus(self.y.times(other.y))
-            .plus(self.z.times(other.z))
+    pub fn dot(self, other: Self) -> N {
+        N::dot(self.components(), other.components())
     }
 
+    /// `unit·self` for a vector of length 1, up to the sign of a zero.
+    #[inline(always)]
+    pub fn along(self, unit: Self) -> N {
+        N::along(self.components(), unit.components())
+    }
+
+    /// `self + unit·distance` for a vector of length 1.
+    #[inline(always)]
+    pub fn moved(self, unit: Self, distance: N) -> Self {
+        let [x, y, z] = N::moved(self.components(), unit.components(), distance);
+        Self::new(x, y, z)
+    }
+
+    /// Absolute value of each component.
+    #[inline(always)]
+    pub fn abs(self) -> Self {
+        Self::new(self.x.abs(), self.y.abs(), self.z.abs())
+    }
+
+    /// The vector of length 1, for vectors whose square is neither zero nor infinite.
+    #[inline(always)]
+    pub fn normalize(self) -> Self {
+        let square = self.dot(self);
+        self * square.constant(1.0).over(square.sqrt())
+    }
+}
+
+impl<T: Scalar> Vec3<T> {
     /// The axis along which a unit vector lies exactly, if arithmetic is emulated: products with 0 and 1 need not be
     /// computed there.
     #[inline(always)]
@@ -65,7 +96,7 @@ impl<T: Scalar> Vec3<T> {
 
     /// The component along an axis, and the two others.
     #[inline(always)]
-    fn along(self, axis: Axis) -> (T, [T; 2]) {
+    fn split_at(self, axis: Axis) -> (T, [T; 2]) {
         match axis {
             Axis::X => (self.x, [self.y, self.z]),
             Axis::Y => (self.y, [self.x, self.z]),
@@ -77,24 +108,24 @@ impl<T: Scalar> Vec3<T> {
     #[inline(always)]
     pub(crate) fn component_along(self, unit: Self) -> T {
         if let Some(axis) = unit.axis() {
-            let (value, others) = self.along(axis);
+            let (value, others) = self.split_at(axis);
             // Infinity times 0 is NaN.
             if others.into_iter().all(T::is_finite) {
-                let (one, _) = unit.along(axis);
+                let (one, _) = unit.split_at(axis);
                 return value.with_sign_of(one);
             }
         }
-        unit.dot(self)
+        T::dot([unit.x, unit.y, unit.z], [self.x, self.y, self.z])
     }
 
     /// `self + unit·distance` for a vector of length 1.
     #[inline(always)]
     pub(crate) fn moved_along(self, unit: Self, distance: T) -> Self {
         if let Some(axis) = unit.axis() {
-            let (value, others) = self.along(axis);
+            let (value, others) = self.split_at(axis);
             // ±0 changes no number but −0.
             if distance.is_finite() && others.into_iter().all(T::is_normal) {
-                let (one, _) = unit.along(axis);
+                let (one, _) = unit.split_at(axis);
                 let mut moved = self;
                 *match axis {
                     Axis::X => &mut moved.x,
@@ -117,28 +148,36 @@ impl<T: Scalar> Vec3<T> {
         )
     }
 
-    /// Absolute value of each component.
-    #[inline(always)]
-    pub fn abs(self) -> Self {
-        Self::new(self.x.abs(), self.y.abs(), self.z.abs())
-    }
-
     /// The largest component.
     #[inline]
     pub fn max_component(self) -> T {
         self.x.max(self.y).max(self.z)
     }
 
+    /// The smaller of two, component by component; that of `self` where they do not compare.
+    pub(crate) fn min_by_component(self, other: Self) -> Self {
+        let min = |a: T, b: T| if b < a { b } else { a };
+        Self::new(
+            min(self.x, other.x),
+            min(self.y, other.y),
+            min(self.z, other.z),
+        )
+    }
+
+    /// The larger of two, component by component; that of `self` where they do not compare.
+    pub(crate) fn max_by_component(self, other: Self) -> Self {
+        let max = |a: T, b: T| if b > a { b } else { a };
+        Self::new(
+            max(self.x, other.x),
+            max(self.y, other.y),
+            max(self.z, other.z),
+        )
+    }
+
     /// All three components are finite.
     #[inline]
     pub fn is_finite(self) -> bool {
         self.x.is_finite() && self.y.is_finite() && self.z.is_finite()
-    }
-
-    /// The vector of length 1, for vectors whose square is neither zero nor infinite.
-    #[inline(always)]
-    pub fn normalize(self) -> Self {
-        self * T::ONE.over(self.dot(self).sqrt())
     }
 
     /// The vector of length 1, whatever the scale, and the length it had as two factors, whose product
@@ -155,64 +194,9 @@ impl<T: Scalar> Vec3<T> {
         let unit = Self::new(scaled.x / length, scaled.y / length, scaled.z / length);
         Some((unit, [largest, length]))
     }
-
-    /// One Newton step of `1/√(x·x)` at 1: full precision for a vector that rounding has moved off
-    /// length 1, without a root or a division.
-    #[inline(always)]
-    fn renormalize(self) -> Self {
-        let square = self.dot(self);
-        if T::EMULATED && square.is_one() {
-            return self;
-        }
-        self * (T::THREE_HALVES.minus(square.halve()))
-    }
-
-    /// The mirror direction of the unit vector `self` at a surface with unit normal `normal`.
-    #[inline(always)]
-    pub fn reflect(self, normal: Self) -> Self {
-        self.reflect_at(normal, -self.dot(normal))
-    }
-
-    /// [`Vec3::reflect`] where `cosine = −self·normal` is known.
-    #[inline(always)]
-    pub(crate) fn reflect_at(self, normal: Self, cosine: T) -> Self {
-        (self + normal * cosine.double()).renormalize()
-    }
-
-    /// The refracted direction of the unit vector `self`, or `None` at total internal reflection.
-    ///
-    /// `normal` is the unit normal on the side the ray comes from, `eta` the ratio of the index of
-    /// refraction on that side to the one beyond, and `bend = 1/eta² − 1`, which a caller computes
-    /// from the index itself because the difference cancels when `eta` is near 1.
-    ///
-    /// Snell's law as `eta (d + (c − √(c² + bend)) n)` with `c = −d·n`: the same as the usual
-    /// `k = 1 − eta²(1 − c²)`, but the sign that decides total reflection has no cancellation.
-    #[inline]
-    pub fn refract(self, normal: Self, eta: T, bend: T) -> Option<Self> {
-        self.refract_at(normal, -self.dot(normal), eta, bend)
-    }
-
-    /// [`Vec3::refract`] where `cosine = −self·normal` is known.
-    #[inline]
-    pub(crate) fn refract_at(self, normal: Self, cosine: T, eta: T, bend: T) -> Option<Self> {
-        let k = cosine.times(cosine).plus(bend);
-        // NaN counts as total reflection, so that no direction without a length leaves here.
-        if !k.is_zero_or_positive() {
-            return None;
-        }
-        let direction = (self + normal * (cosine.minus(k.sqrt()))) * eta;
-        let drift = direction.dot(direction).minus(T::ONE).abs();
-        if drift.is_before(T::EPSILON * T::from_i32(256)) {
-            Some(direction.renormalize())
-        } else {
-            // Only an extreme index cancels enough to come here, or even to end on the wrong side.
-            let (unit, _) = direction.try_normalize()?;
-            (unit.dot(normal) < T::ZERO).then_some(unit)
-        }
-    }
 }
 
-impl<T: Scalar> Add for Vec3<T> {
+impl<N: Number> Add for Vec3<N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -224,7 +208,7 @@ impl<T: Scalar> Add for Vec3<T> {
     }
 }
 
-impl<T: Scalar> Sub for Vec3<T> {
+impl<N: Number> Sub for Vec3<N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -236,10 +220,10 @@ impl<T: Scalar> Sub for Vec3<T> {
     }
 }
 
-impl<T: Scalar> Mul<T> for Vec3<T> {
+impl<N: Number> Mul<N> for Vec3<N> {
     type Output = Self;
     #[inline(always)]
-    fn mul(self, factor: T) -> Self {
+    fn mul(self, factor: N) -> Self {
         Self::new(
             self.x.times(factor),
             self.y.times(factor),
@@ -248,7 +232,7 @@ impl<T: Scalar> Mul<T> for Vec3<T> {
     }
 }
 
-impl<T: Scalar> Neg for Vec3<T> {
+impl<N: Number> Neg for Vec3<N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
@@ -261,18 +245,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn reflection_keeps_length_over_many_bounces() {
-        let mut direction = Vec3::new(0.6_f32, -0.48, 0.64);
-        for step in 0..1000_i32 {
-            let (normal, _) = Vec3::new(f32::from_i32(step % 7) - 3.2, 1.0, 0.3)
-                .try_normalize()
-                .unwrap();
-            direction = direction.reflect(normal);
-            assert!((direction.dot(direction).sqrt() - 1.0).abs() <= 2e-7);
-        }
-    }
-
-    #[test]
     fn try_normalize_knows_no_scale() {
         for scale in [1e-38_f32, 1e-20, 1.0, 1e20, 1e38] {
             let (unit, length) = Vec3::new(0.0, scale, 0.0).try_normalize().unwrap();
@@ -282,26 +254,5 @@ mod tests {
         assert_eq!(Vec3::new(0.0_f32, 0.0, -0.0).try_normalize(), None);
         assert_eq!(Vec3::new(f32::NAN, 1.0, 0.0).try_normalize(), None);
         assert_eq!(Vec3::new(f32::INFINITY, 1.0, 0.0).try_normalize(), None);
-    }
-
-    #[test]
-    fn refraction_bends_by_snell_and_reflects_totally_beyond_the_critical_angle() {
-        let normal = Vec3::new(0.0_f64, 1.0, 0.0);
-        let (sine, cosine) = (0.6, 0.8);
-        let incoming = Vec3::new(sine, -cosine, 0.0);
-        // Into glass: the sine shrinks by the index.
-        let index = 1.5;
-        let inside = incoming
-            .refract(normal, 1.0 / index, (index - 1.0) * (index + 1.0))
-            .unwrap();
-        assert!((inside.x - sine / index).abs() < 1e-15);
-        // Out of glass: beyond asin(1/1.5) nothing leaves.
-        let bend = (1.0 / index) * (1.0 / index) - 1.0;
-        assert_eq!(
-            incoming.refract(normal, index, bend).map(|d| d.x > 0.89),
-            Some(true)
-        );
-        let steep = Vec3::new(0.7, -(1.0_f64 - 0.49).sqrt(), 0.0);
-        assert_eq!(steep.refract(normal, index, bend), None);
     }
 }

@@ -1,6 +1,7 @@
 //! A display in memory: the [`DrawTarget`] that pictures are drawn on before they become files.
 
 use std::convert::Infallible;
+use std::fmt;
 
 use embedded_graphics::Pixel;
 use embedded_graphics::pixelcolor::Rgb888;
@@ -11,13 +12,44 @@ use scanray::{Color, DisplayColor};
 
 /// Rows of a picture in the colours of a display.
 ///
-/// Its pixels keep their coordinates in the whole picture. Bands of rows can be drawn independently.
-#[derive(Debug)]
-pub(crate) struct Canvas<C> {
+/// Its pixels keep their coordinates in the whole picture. Bands of rows can be drawn independently. Of which kind the
+/// colours are is known to the bands alone, so that the rest is compiled once.
+pub(crate) struct Canvas {
     width: usize,
     /// The pixels of some rows each.
-    bands: Vec<Vec<C>>,
+    bands: Vec<Box<dyn Pixels>>,
 }
+
+/// Pixels in the colours of a display.
+trait Pixels: Send {
+    /// Three bytes for each.
+    fn to_rgb888(&self) -> Vec<u8>;
+}
+
+impl<C: PixelColor + Into<Rgb888> + Send> Pixels for Vec<C> {
+    fn to_rgb888(&self) -> Vec<u8> {
+        let mut bytes = vec![0; 3 * self.len()];
+        for (bytes, color) in bytes.chunks_exact_mut(3).zip(self) {
+            let color: Rgb888 = (*color).into();
+            bytes.copy_from_slice(&[color.r(), color.g(), color.b()]);
+        }
+        bytes
+    }
+}
+
+impl fmt::Debug for Canvas {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Canvas")
+            .field("width", &self.width)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Draws a band of a width from a row on, of so many rows.
+pub(crate) type DrawBand<'a> = dyn Fn([usize; 3]) -> DrawnBand + Sync + 'a;
+
+/// What is kept of a band.
+pub(crate) struct DrawnBand(Box<dyn Pixels>);
 
 /// Some rows of a canvas, and a display of their own.
 #[derive(Debug)]
@@ -26,21 +58,19 @@ pub(crate) struct Band<'c, C> {
     pixels: &'c mut [C],
 }
 
-impl<C: DisplayColor + Into<Rgb888> + Send> Canvas<C> {
+impl Canvas {
     /// Draws rows, `top` being the first, in bands of as many rows each, the last of perhaps fewer. Rayon's threads
-    /// share the work; a band is black before.
+    /// share the work.
     pub(crate) fn draw(
         [width, top, rows]: [u16; 3],
         band_rows: usize,
-        draw: impl Fn(&mut Band<'_, C>) + Sync,
+        draw: &DrawBand<'_>,
     ) -> Self {
         let [width, top, rows] = [width, top, rows].map(usize::from);
         let band = |index: usize| {
             let first = index * band_rows;
             let rows = band_rows.min(rows - first);
-            let mut pixels = vec![C::from_linear(Color::<f32>::BLACK, 0.5); width * rows];
-            draw(&mut Band::new(width, top + first, &mut pixels));
-            pixels
+            draw([width, top + first, rows]).0
         };
         // Left to itself rayon hands out quarters of a picture, one of which may take longer than the others.
         let bands = (0..rows.div_ceil(band_rows))
@@ -56,19 +86,23 @@ impl<C: DisplayColor + Into<Rgb888> + Send> Canvas<C> {
     pub(crate) fn into_rows_rgb888(self) -> impl Iterator<Item = Vec<u8>> {
         let width = self.width;
         self.bands.into_iter().flat_map(move |band| {
-            let rows: Vec<Vec<u8>> = band.chunks(width).map(row_rgb888).collect();
+            let bytes = band.to_rgb888();
+            let rows: Vec<Vec<u8>> = bytes.chunks(3 * width).map(<[u8]>::to_vec).collect();
             rows
         })
     }
 }
 
-fn row_rgb888<C: Copy + Into<Rgb888>>(row: &[C]) -> Vec<u8> {
-    row.iter()
-        .flat_map(|color| {
-            let color: Rgb888 = (*color).into();
-            [color.r(), color.g(), color.b()]
-        })
-        .collect()
+impl<C: DisplayColor + Into<Rgb888> + Send + 'static> Band<'_, C> {
+    /// Draws a band, which is black before.
+    pub(crate) fn drawn(
+        [width, top, rows]: [usize; 3],
+        draw: impl FnOnce(&mut Band<'_, C>),
+    ) -> DrawnBand {
+        let mut pixels = vec![C::from_linear(Color::<f32>::BLACK, 0.5); width * rows];
+        draw(&mut Band::new(width, top, &mut pixels));
+        DrawnBand(Box::new(pixels))
+    }
 }
 
 impl<'c, C> Band<'c, C> {
@@ -81,17 +115,20 @@ impl<'c, C> Band<'c, C> {
         }
     }
 
-    /// How many rows it has.
-    pub(crate) fn rows(&self) -> u64 {
-        self.area.size.height.into()
-    }
-
     /// The pixels of a row, from a place inside the area on.
     fn row_from(&mut self, place: Point) -> &mut [C] {
         let width = self.area.size.width as usize;
         let row = (place.y - self.area.top_left.y) as usize;
         let (start, end) = (row * width + place.x as usize, (row + 1) * width);
         &mut self.pixels[start..end]
+    }
+}
+
+impl<C: Copy> Band<'_, C> {
+    fn draw_pixel(&mut self, place: Point, color: C) {
+        if self.area.contains(place) {
+            self.row_from(place)[0] = color;
+        }
     }
 }
 
@@ -110,9 +147,7 @@ impl<C: PixelColor> DrawTarget for Band<'_, C> {
         I: IntoIterator<Item = Pixel<C>>,
     {
         for Pixel(place, color) in pixels {
-            if self.area.contains(place) {
-                self.row_from(place)[0] = color;
-            }
+            self.draw_pixel(place, color);
         }
         Ok(())
     }
@@ -123,7 +158,10 @@ impl<C: PixelColor> DrawTarget for Band<'_, C> {
     {
         if area.intersection(&self.area) != *area {
             // What lies outside is left out, but its colours are there.
-            return self.draw_iter(area.points().zip(colors).map(|(p, c)| Pixel(p, c)));
+            for (place, color) in area.points().zip(colors) {
+                self.draw_pixel(place, color);
+            }
+            return Ok(());
         }
         let mut colors = colors.into_iter();
         for y in area.rows() {
@@ -146,11 +184,11 @@ mod tests {
     use embedded_graphics::primitives::PrimitiveStyle;
 
     /// The bytes of a picture that one band draws with `draw`.
-    fn drawn<C: DisplayColor + Into<Rgb888> + Send + Sync>(
+    fn drawn<C: DisplayColor + Into<Rgb888> + Send + Sync + 'static>(
         area: [u16; 3],
         draw: impl Fn(&mut Band<'_, C>) + Sync,
     ) -> Vec<Vec<u8>> {
-        let canvas = Canvas::<C>::draw(area, area[2].into(), draw);
+        let canvas = Canvas::draw(area, area[2].into(), &|area| Band::drawn(area, &draw));
         canvas.into_rows_rgb888().collect()
     }
 

@@ -19,19 +19,29 @@ use crate::commands::man::ManArgs;
 use crate::commands::needs::NeedsArgs;
 use crate::commands::pixel::PixelArgs;
 use crate::commands::render::RenderArgs;
-use crate::commands::report::ReportArgs;
-use crate::commands::stability::StabilityArgs;
-use crate::commands::tune::TuneArgs;
 use crate::commands::view::ViewArgs;
 #[cfg(feature = "window")]
 use crate::commands::window::WindowArgs;
 use crate::console::say;
+
+/// What `--help` prints; commands of the laboratory are another program's.
+const HELP: &str = "\
+{about-with-newline}
+{usage-heading} {usage}
+
+{all-args}
+
+Laboratory, the program scanray-lab, which these run:
+  report       Measure what each setting costs and what it buys, as a page with plots
+  tune         Find the settings with the least error for a device and a time
+  stability    Measure stiff and extreme cases: a table of figures and their bounds{after-help}";
 
 /// Draws scenes for small displays on the desktop, with the bits the device will draw.
 #[derive(Parser, Debug)]
 #[command(
     name = "scanray",
     version,
+    help_template = HELP,
     after_help = "\
 Without a command, the default scene is drawn into output.ppm.
 
@@ -50,14 +60,12 @@ Examples:
   scanray needs scene.txt                  what it asks of a device: stages, bytes
   scanray pixel scene.txt 4,3              why a pixel has its colour
   scanray diff old.png new.png             how different two pictures are
-  scanray report scene.txt                 what each setting costs and what it buys
   scanray generate spheres --count 10000 -o many.txt
                                            a large scene
   scanray help example                     how a scene file is written
   scanray help render                      all that render can do
 
-Exit codes: 0 fine, 1 a difference (diff, fmt --check) or a figure beyond its bound (stability), 2 usage, 3 scene, 4 files \
-or memory."
+Exit codes: 0 fine, 1 a difference (diff, fmt --check), 2 usage, 3 scene, 4 files or memory."
 )]
 pub(crate) struct Cli {
     #[command(subcommand)]
@@ -86,17 +94,11 @@ pub(crate) enum Command {
     /// Print a scene as it was read
     Inspect(InspectArgs),
     /// Tell what a scene asks of a device: stages, bytes, a line for firmware
-    Needs(NeedsArgs),
+    Stages(NeedsArgs),
     /// Tell how the colours of pixels come about: the tree of rays
     Pixel(PixelArgs),
     /// Compare two pictures: numbers, a picture of the differences
     Diff(DiffArgs),
-    /// Measure what each setting costs and what it buys, as a page with plots
-    Report(ReportArgs),
-    /// Find the settings with the least error for a device and a time
-    Tune(TuneArgs),
-    /// Measure stiff and extreme cases: a table of figures and their bounds
-    Stability(StabilityArgs),
     /// Print a scene to start from, its numbers explained
     Example(ExampleArgs),
     /// Rewrite scenes in canonical form, comments kept

@@ -6,7 +6,7 @@ use std::io::{self, BufWriter, Write};
 use crate::failure::Failure;
 
 /// Says a line on standard error. That nobody listens is no reason to stop.
-pub(crate) fn say(words: impl Display) {
+pub fn say(words: impl Display) {
     let _ = writeln!(io::stderr(), "{words}");
 }
 
@@ -15,7 +15,7 @@ pub(crate) fn say(words: impl Display) {
 /// # Errors
 ///
 /// [`Failure::ClosedPipe`] and [`Failure::Files`].
-pub(crate) fn print(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
+pub fn print(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
     let mut stdout = BufWriter::new(io::stdout().lock());
     write(&mut stdout)
         .and_then(|()| stdout.flush())

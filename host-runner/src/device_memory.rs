@@ -3,10 +3,10 @@
 //! Entries, colours and frames hold no pointers, so that they have the same size here; what holds lengths and
 //! pointers is put together from its fields, in the order that leaves no gaps, which is the compiler's.
 
+use scanray::accel::{Bvh, BvhNode, Candidates, PlaneGrid};
 use scanray::shape::{Plane, Sphere, Triangle};
 use scanray::{
-    Background, Camera, DEFAULT_MAX_DEPTH, Light, Material, Reach, Resolution, Scalar, Scene,
-    Tracer, Tree, TreeEntry, TreeNode, Zones,
+    Background, Camera, DEFAULT_MAX_DEPTH, Light, Material, Resolution, Scalar, Scene, Tracer,
 };
 use serde::Serialize;
 
@@ -134,23 +134,23 @@ impl DeviceMemory {
 
     fn with_word<T: Scalar>(scene: &Scene<'_, T>, max_depth: usize, word: usize) -> Self {
         let objects = scene.object_count();
-        let bounded = scene.spheres.len() + scene.triangles.len();
-        let in_tree = if bounded < Tree::<T>::FEWEST_OBJECTS {
+        let bounded = scene.spheres().len() + scene.triangles().len();
+        let in_tree = if bounded < Bvh::<T>::FEWEST_OBJECTS {
             0
         } else {
             bounded
         };
-        // The zones have the capacity of the planes, the entries of the tree that of its nodes.
+        // The grids have the capacity of the planes, the entries of the hierarchy that of its nodes.
         let pools = [
-            pool::<Sphere<T>>("spheres", scene.spheres.len()),
-            pool::<Plane<T>>("planes", scene.planes.len()),
-            pool::<Triangle<T>>("triangles", scene.triangles.len()),
-            pool::<Material<T>>("materials", scene.materials.len()),
-            pool::<Light<T>>("lights", scene.lights.len()),
-            pool::<[Reach; 2]>("sides", objects).for_speed(),
-            pool::<Zones<T>>("zones", scene.planes.len()).with_another(),
-            pool::<TreeNode<T>>("tree nodes", in_tree).for_speed(),
-            pool::<TreeEntry>("tree entries", in_tree)
+            pool::<Sphere<T>>("spheres", scene.spheres().len()),
+            pool::<Plane<T>>("planes", scene.planes().len()),
+            pool::<Triangle<T>>("triangles", scene.triangles().len()),
+            pool::<Material<T>>("materials", scene.materials().len()),
+            pool::<Light<T>>("lights", scene.lights().len()),
+            pool::<[Candidates; 2]>("sides", objects).for_speed(),
+            pool::<PlaneGrid<T>>("plane grids", scene.planes().len()).with_another(),
+            pool::<BvhNode<T>>("bvh nodes", in_tree).for_speed(),
+            pool::<u32>("bvh entries", in_tree)
                 .for_speed()
                 .with_another(),
         ];
@@ -262,7 +262,7 @@ mod tests {
             assert_eq!((pool.entries, pool.bytes), (use_.capacity, use_.bytes));
             assert_eq!(use_.used, use_.capacity, "just enough room");
         }
-        let nodes = size_of_val(scene.tree.entries);
+        let nodes = size_of_val(scene.accel().bvh().entries);
         assert_eq!(memory.pools.last().map(|pool| pool.bytes), Some(nodes));
     }
 

@@ -2,6 +2,7 @@
 //!
 //! [`DrawTarget`]: embedded_graphics::draw_target::DrawTarget
 
+use std::fmt;
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
@@ -11,7 +12,7 @@ use embedded_graphics::pixelcolor::Rgb888;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use scanray::{DisplayColor, Picture, PixelSource, Quantizer};
 
-use crate::canvas::Canvas;
+use crate::canvas::{Band, Canvas, DrawBand};
 use crate::failure::Failure;
 use crate::memory::{Shortage, require};
 use crate::progress::Progress;
@@ -29,7 +30,7 @@ fn rows_of_a_part(width: usize) -> usize {
 
 /// The threads that draw.
 #[derive(Debug)]
-pub(crate) struct Workers(ThreadPool);
+pub struct Workers(ThreadPool);
 
 impl Workers {
     /// As many threads, or one for each core.
@@ -37,7 +38,7 @@ impl Workers {
     /// # Errors
     ///
     /// [`Failure::Usage`] when the system does not give so many.
-    pub(crate) fn new(threads: Option<u16>) -> Result<Self, Failure> {
+    pub fn new(threads: Option<u16>) -> Result<Self, Failure> {
         ThreadPoolBuilder::new()
             .num_threads(threads.map_or(0, usize::from))
             .build()
@@ -46,20 +47,20 @@ impl Workers {
     }
 
     /// How many there are.
-    pub(crate) fn count(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.0.current_num_threads()
     }
 
     /// Lets them do parallel work.
-    pub(crate) fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+    pub fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
         self.0.install(work)
     }
 }
 
 /// Draws rows of a picture: an iterator over canvases, from top to bottom, that each hold many rows.
-#[derive(Debug)]
-pub(crate) struct Parts<'a, P, Q> {
-    picture: Picture<P, Q>,
+pub(crate) struct Parts<'a> {
+    draw: Box<DrawBand<'a>>,
+    width: u16,
     rows: Range<u16>,
     workers: &'a Workers,
     progress: &'a Progress,
@@ -67,33 +68,58 @@ pub(crate) struct Parts<'a, P, Q> {
     cpu_time: Duration,
 }
 
-impl<'a, P: PixelSource, Q: Quantizer> Parts<'a, P, Q> {
+impl fmt::Debug for Parts<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Parts")
+            .field("width", &self.width)
+            .field("rows", &self.rows)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'a> Parts<'a> {
     /// Begins to draw rows of a picture; each is a step of the progress.
     ///
     /// # Errors
     ///
     /// A [`Shortage`] of memory for a canvas.
-    pub(crate) fn new(
+    pub(crate) fn new<P, Q>(
         picture: Picture<P, Q>,
         rows: Range<u16>,
         workers: &'a Workers,
         progress: &'a Progress,
-    ) -> Result<Self, Shortage> {
-        let width = usize::from(picture.resolution().width);
-        let pixels = width * rows.len().min(rows_of_a_part(width));
-        require(
-            (pixels * size_of::<Q::Color>()) as u64,
-            format_args!("a part of {pixels} pixels"),
-            "draw smaller parts with --rows, or draw with a smaller --size",
-        )?;
-        Ok(Self {
-            picture,
+    ) -> Result<Self, Shortage>
+    where
+        P: PixelSource + Sync + 'a,
+        Q: Quantizer<Color: DisplayColor + Into<Rgb888> + Send + 'static> + Sync + 'a,
+    {
+        let width = picture.resolution().width;
+        let draw = move |area| {
+            Band::drawn(area, |band| {
+                let Ok(()) = picture.draw(band);
+            })
+        };
+        let parts = Self {
+            draw: Box::new(draw),
+            width,
             rows,
             workers,
             progress,
             time: Duration::ZERO,
             cpu_time: Duration::ZERO,
-        })
+        };
+        parts.require_memory(size_of::<Q::Color>())?;
+        Ok(parts)
+    }
+
+    fn require_memory(&self, bytes_a_pixel: usize) -> Result<(), Shortage> {
+        let width = usize::from(self.width);
+        let pixels = width * self.rows.len().min(rows_of_a_part(width));
+        require(
+            (pixels * bytes_a_pixel) as u64,
+            format_args!("a part of {pixels} pixels"),
+            "draw smaller parts with --rows, or draw with a smaller --size",
+        )
     }
 
     /// What drawing has taken so far, without what happens between the parts.
@@ -107,29 +133,27 @@ impl<'a, P: PixelSource, Q: Quantizer> Parts<'a, P, Q> {
     }
 }
 
-impl<P, Q> Iterator for Parts<'_, P, Q>
-where
-    P: PixelSource + Sync,
-    Q: Quantizer<Color: DisplayColor + Into<Rgb888> + Send> + Sync,
-{
-    type Item = Canvas<Q::Color>;
+impl Iterator for Parts<'_> {
+    type Item = Canvas;
 
-    fn next(&mut self) -> Option<Canvas<Q::Color>> {
+    fn next(&mut self) -> Option<Canvas> {
         if self.rows.is_empty() {
             return None;
         }
         let start = Instant::now();
         let cpu_start = ProcessTime::now();
-        let width = self.picture.resolution().width;
+        let width = self.width;
         let rows = self.rows.len().min(rows_of_a_part(width.into())) as u16;
         let top = self.rows.start;
         self.rows.start += rows;
 
-        let (picture, progress) = (&self.picture, self.progress);
+        let (draw, progress) = (&self.draw, self.progress);
         let canvas = self.workers.install(|| {
-            Canvas::draw([width, top, rows], BAND_ROWS, |band| {
-                let Ok(()) = picture.draw(band);
-                progress.advance(band.rows());
+            Canvas::draw([width, top, rows], BAND_ROWS, &|area| {
+                let band = draw(area);
+                let [_, _, rows] = area;
+                progress.advance(rows as u64);
+                band
             })
         });
         self.time += start.elapsed();

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 /// The end of a command, with the words for it.
 #[derive(Debug)]
-pub(crate) enum Failure {
+pub enum Failure {
     /// The command line asks for something that cannot be: code 2.
     Usage(String),
     /// A scene was rejected; the words are a whole report: code 3.
@@ -22,12 +22,12 @@ pub(crate) enum Failure {
 
 impl Failure {
     /// A file could not be read or written.
-    pub(crate) fn file(deed: &str, path: &Path, why: impl Display) -> Self {
+    pub fn file(deed: &str, path: &Path, why: impl Display) -> Self {
         Self::Files(format!("cannot {deed} {}: {why}", path.display()))
     }
 
     /// Standard output could not be written.
-    pub(crate) fn stdout(error: &io::Error) -> Self {
+    pub fn stdout(error: &io::Error) -> Self {
         match error.kind() {
             io::ErrorKind::BrokenPipe => Self::ClosedPipe,
             _ => Self::Files(format!("cannot write to standard output: {error}")),
@@ -35,7 +35,7 @@ impl Failure {
     }
 
     /// What went wrong, in words; none for a closed pipe.
-    pub(crate) fn words(&self) -> String {
+    pub fn words(&self) -> String {
         match self {
             Self::Usage(words) | Self::Files(words) | Self::Memory(words) => {
                 format!("error: {words}")
@@ -46,7 +46,7 @@ impl Failure {
     }
 
     /// Says on standard error what went wrong; returns the exit code.
-    pub(crate) fn report(&self) -> ExitCode {
+    pub fn report(&self) -> ExitCode {
         let code = match self {
             Self::Usage(_) => 2,
             Self::Scene(_) => 3,

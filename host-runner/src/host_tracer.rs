@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use scanray::{
-    Color, Needs, Observer, PixelSource, RayCount, Resolution, Scalar, Scanline, Scene, Subpixel,
-    Tracer, differ,
+    Color, LightAtHit, Meeting, Object, Observer, PixelSource, Ray, RayCount, RayKind, Resolution,
+    Scalar, Scanline, Scene, Stages, Subpixel, TestKind, Tracer, differ,
 };
 
 use crate::cost::{Circumstances, Work};
@@ -18,10 +18,10 @@ pub(crate) const MAX_DEPTH: usize = 32;
 
 /// A tracer with every stage but the cut-off.
 pub(crate) type AllStages<'a, T> =
-    Tracer<'a, T, { Needs::ALL.union(Needs::TREE).bits() }, MAX_DEPTH>;
+    Tracer<'a, T, { Stages::ALL.union(Stages::BVH).bits() }, MAX_DEPTH>;
 
 type WithCutoff<'a, T> =
-    Tracer<'a, T, { Needs::ALL.union(Needs::TREE).union(Needs::CUTOFF).bits() }, MAX_DEPTH>;
+    Tracer<'a, T, { Stages::ALL.union(Stages::BVH).union(Stages::CUTOFF).bits() }, MAX_DEPTH>;
 
 /// Traces single rays. It can be watched; [`Drawing::pixels`](crate::drawing::Drawing::pixels) is the
 /// faster way to the same pixels.
@@ -29,9 +29,10 @@ type WithCutoff<'a, T> =
 /// As a source of pixels it is compiled once a scalar, not once more for each colour.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HostTracer<'a, T> {
+    /// For rows of samples, unless there is a cut-off.
     tracer: AllStages<'a, T>,
-    /// In place of `tracer`, if there is a cut-off.
-    cut: Option<WithCutoff<'a, T>>,
+    /// For everything else: a cut-off of 0 casts every ray.
+    cut: WithCutoff<'a, T>,
     knobs: Knobs,
 }
 
@@ -60,13 +61,13 @@ impl<'a, T: Scalar> HostTracer<'a, T> {
         max_depth: usize,
     ) -> Result<Self, Failure> {
         Tracer::new(scene)
-            .with_tree()
+            .with_bvh()
             .with_stack()
             .with_resolution(resolution)
             .with_max_depth(max_depth)
             .map(|tracer| Self {
                 tracer,
-                cut: None,
+                cut: tracer.with_cutoff(T::ZERO),
                 knobs: Knobs::default(),
             })
             .map_err(|error| Failure::Usage(error.to_string()))
@@ -74,9 +75,8 @@ impl<'a, T: Scalar> HostTracer<'a, T> {
 
     /// The same tracer with other knobs.
     pub(crate) fn with_knobs(self, knobs: Knobs) -> Self {
-        let cutoff = T::from_f64(knobs.cutoff);
         Self {
-            cut: (cutoff > T::ZERO).then(|| self.tracer.with_cutoff(cutoff)),
+            cut: self.tracer.with_cutoff(T::from_f64(knobs.cutoff)),
             knobs,
             ..self
         }
@@ -87,9 +87,13 @@ impl<'a, T: Scalar> HostTracer<'a, T> {
         self.knobs
     }
 
+    fn has_cutoff(&self) -> bool {
+        self.cut.cutoff() > T::ZERO
+    }
+
     /// The tracer without knobs, if no rays are cut off.
     pub(crate) fn uncut(&self) -> Option<AllStages<'a, T>> {
-        self.cut.is_none().then_some(self.tracer)
+        (!self.has_cutoff()).then_some(self.tracer)
     }
 
     /// The linear colour of a pixel, watched.
@@ -97,9 +101,9 @@ impl<'a, T: Scalar> HostTracer<'a, T> {
         &self,
         x: u16,
         y: u16,
-        observer: &mut impl Observer<T>,
+        observer: &mut dyn Observer<T>,
     ) -> Color<T> {
-        self.observe(&self.scanline(y), x, observer)
+        self.observe(&self.scanline(y), x, &mut Watch(observer))
     }
 
     /// The linear colour of a pixel of a row, watched. The observer is told of what the pixel adds to
@@ -168,18 +172,22 @@ impl<'a, T: Scalar> HostTracer<'a, T> {
         at: Subpixel,
         observer: &mut impl Observer<T>,
     ) -> Color<T> {
-        match &self.cut {
-            None => self.tracer.sample_observed(scanline, x, at, observer),
-            Some(tracer) => tracer.sample_observed(scanline, x, at, observer),
-        }
+        self.cut.sample_observed(scanline, x, at, observer)
     }
 
     /// Colours at a place in each pixel of a part of a row, one by one.
     pub(crate) fn sample_row(&self, places: SampleRow, colors: &mut [Color<T>]) {
         let SampleRow { x, step, y, at } = places;
         let scanline = self.scanline_at(y, at);
-        for (x, color) in (x..=u16::MAX).step_by(step.into()).zip(colors) {
-            *color = self.sample(&scanline, x, at, &mut ());
+        let places = (x..=u16::MAX).step_by(step.into());
+        if self.has_cutoff() {
+            for (x, color) in places.zip(colors) {
+                *color = self.sample(&scanline, x, at, &mut ());
+            }
+        } else {
+            for (x, color) in places.zip(colors) {
+                *color = self.tracer.sample_observed(&scanline, x, at, &mut ());
+            }
         }
     }
 
@@ -195,7 +203,7 @@ impl<'a, T: Scalar> HostTracer<'a, T> {
         // `Adaptive` has three more, for the centres.
         let each = samples + if is_adaptive { 3 } else { 0 };
         let circumstances = Circumstances {
-            has_cutoff: self.cut.is_some(),
+            has_cutoff: self.has_cutoff(),
             block: block.into(),
             samples: samples as u64,
             is_adaptive,
@@ -204,11 +212,44 @@ impl<'a, T: Scalar> HostTracer<'a, T> {
         let work = Work::count(width, rows, workers, |y, counter| {
             let scanline = self.scanline(y);
             for x in 0..width {
-                self.observe(&scanline, x, counter);
+                self.observe(&scanline, x, &mut Watch(counter));
             }
             progress.advance(1);
         });
         work.under(&circumstances)
+    }
+}
+
+/// Tells any observer: the tracer is compiled once for all but those whose speed matters.
+struct Watch<'o, T>(&'o mut dyn Observer<T>);
+
+impl<T> Observer<T> for Watch<'_, T> {
+    fn ray(&mut self, kind: RayKind, depth: usize, ray: &Ray<T>) {
+        self.0.ray(kind, depth, ray);
+    }
+
+    fn test(&mut self, kind: TestKind) {
+        self.0.test(kind);
+    }
+
+    fn test_object(&mut self, object: Object<'_, T>, ray: &Ray<T>, t_max: T) {
+        self.0.test_object(object, ray, t_max);
+    }
+
+    fn meeting(&mut self, meeting: &Meeting<'_, T>) {
+        self.0.meeting(meeting);
+    }
+
+    fn light(&mut self, light: LightAtHit<T>) {
+        self.0.light(light);
+    }
+
+    fn local_color(&mut self, color: Color<T>) {
+        self.0.local_color(color);
+    }
+
+    fn result(&mut self, color: Color<T>) {
+        self.0.result(color);
     }
 }
 

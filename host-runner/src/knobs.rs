@@ -7,14 +7,15 @@ use scanray::{Scalar, Subpixel, Supersampled};
 
 /// Settings of a picture that trade time for quality.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Knobs {
+pub struct Knobs {
     /// What the rays that are not cast may take from a channel; 0 casts them all.
-    pub(crate) cutoff: f64,
-    pub(crate) samples: SampleCount,
+    pub cutoff: f64,
+    /// In each pixel.
+    pub samples: SampleCount,
     /// Differences of channels from which on a pixel has the samples; `None` gives them to all.
-    pub(crate) edges: Option<f64>,
+    pub edges: Option<f64>,
     /// Pixels in one block, side by side.
-    pub(crate) detail: Detail,
+    pub detail: Detail,
 }
 
 impl Default for Knobs {
@@ -31,7 +32,7 @@ impl Default for Knobs {
 
 /// Samples in a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SampleCount {
+pub enum SampleCount {
     /// The centre
     #[value(name = "1")]
     One,
@@ -48,7 +49,7 @@ pub(crate) enum SampleCount {
 
 impl SampleCount {
     /// Where they are.
-    pub(crate) fn pattern(self) -> &'static [Subpixel] {
+    pub fn pattern(self) -> &'static [Subpixel] {
         match self {
             Self::One => &Supersampled::<(), 1>::PATTERN,
             Self::Four => &Supersampled::<(), 4>::PATTERN,
@@ -58,14 +59,14 @@ impl SampleCount {
     }
 
     /// One divided by their number, which is exact.
-    pub(crate) fn share<T: Scalar>(self) -> T {
+    pub fn share<T: Scalar>(self) -> T {
         T::ONE / T::from_i32(self.pattern().len() as i32)
     }
 }
 
 /// How much of a picture that is drawn coarse to fine is there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Detail {
+pub enum Detail {
     /// Each fourth pixel of each fourth row
     Quarter,
     /// Each second pixel of each second row
@@ -76,7 +77,7 @@ pub(crate) enum Detail {
 
 impl Detail {
     /// Side of the blocks, in pixels.
-    pub(crate) fn block(self) -> u16 {
+    pub fn block(self) -> u16 {
         match self {
             Self::Quarter => 4,
             Self::Half => 2,
@@ -112,7 +113,7 @@ impl FromStr for CutoffChoice {
 /// # Errors
 ///
 /// A sentence.
-pub(crate) fn fraction(word: &str) -> Result<f64, String> {
+pub fn fraction(word: &str) -> Result<f64, String> {
     let (over, under) = word.split_once('/').unwrap_or((word, "1"));
     let number = |word: &str| word.parse::<f64>().ok();
     number(over)

@@ -10,7 +10,7 @@ use crate::turntable::Axis;
 
 /// `WxH`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Size(pub(crate) Resolution);
+pub struct Size(pub Resolution);
 
 impl FromStr for Size {
     type Err = String;
@@ -36,7 +36,7 @@ impl FromStr for Size {
 
 /// `A..B`: numbers from A up to, but not including, B. Either may be left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct RangeOption {
+pub struct RangeOption {
     start: u16,
     end: Option<u16>,
 }
@@ -69,7 +69,7 @@ impl RangeOption {
     /// # Errors
     ///
     /// A sentence, when there are not so many.
-    pub(crate) fn within(
+    pub fn within(
         range: Option<Self>,
         count: u16,
         option: &str,
@@ -111,7 +111,7 @@ pub(crate) fn axis(word: &str) -> Result<Axis, String> {
 /// # Errors
 ///
 /// A sentence.
-pub(crate) fn centiseconds(word: &str) -> Result<u16, String> {
+pub fn centiseconds(word: &str) -> Result<u16, String> {
     word.parse()
         .ok()
         .filter(|ms| (20..=60_000).contains(ms) && ms % 10 == 0)
@@ -123,7 +123,7 @@ pub(crate) fn centiseconds(word: &str) -> Result<u16, String> {
 }
 
 /// Whole numbers of a range.
-pub(crate) fn whole<N: TryFrom<u64> + 'static>(
+pub fn whole<N: TryFrom<u64> + 'static>(
     range: RangeInclusive<u64>,
 ) -> impl Fn(&str) -> Result<N, String> + Clone {
     move |word| {
@@ -143,7 +143,7 @@ pub(crate) fn whole<N: TryFrom<u64> + 'static>(
 /// # Errors
 ///
 /// A sentence.
-pub(crate) fn max_depth(word: &str) -> Result<usize, String> {
+pub fn max_depth(word: &str) -> Result<usize, String> {
     const MOST: usize = crate::host_tracer::MAX_DEPTH;
     word.parse()
         .ok()
@@ -153,7 +153,7 @@ pub(crate) fn max_depth(word: &str) -> Result<usize, String> {
 
 /// Number type of the tracer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ScalarName {
+pub enum ScalarName {
     /// Single precision, as on devices
     F32,
     /// Double precision, the reference
@@ -162,7 +162,7 @@ pub(crate) enum ScalarName {
 
 /// A display's colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ColorName {
+pub enum ColorName {
     /// 8 bits a channel
     Rgb888,
     /// 6 bits a channel
@@ -191,12 +191,12 @@ pub(crate) enum ColorName {
 
 impl ColorName {
     /// Whether it has no colours.
-    pub(crate) fn is_grey(self) -> bool {
+    pub fn is_grey(self) -> bool {
         matches!(self, Self::Gray8 | Self::Gray4 | Self::Gray2 | Self::Binary)
     }
 
     /// Levels of the finest channel.
-    pub(crate) fn levels(self) -> u16 {
+    pub fn levels(self) -> u16 {
         match self {
             Self::Rgb888 | Self::Bgr888 | Self::Gray8 => 256,
             Self::Rgb666 | Self::Bgr666 | Self::Rgb565 | Self::Bgr565 => 64,
@@ -210,9 +210,10 @@ impl ColorName {
 
 /// `with_color!(name, C => expression)`: the expression with `C` standing for the named colour of
 /// embedded-graphics.
+#[macro_export]
 macro_rules! with_color {
     ($name:expr, $color:ident => $body:expr) => {
-        with_color!(@match $name, $color, $body;
+        $crate::with_color!(@match $name, $color, $body;
             Rgb888 = Rgb888, Rgb666 = Rgb666, Rgb565 = Rgb565, Rgb555 = Rgb555,
             Bgr888 = Bgr888, Bgr666 = Bgr666, Bgr565 = Bgr565, Bgr555 = Bgr555,
             Gray8 = Gray8, Gray4 = Gray4, Gray2 = Gray2, Binary = BinaryColor)
@@ -220,16 +221,16 @@ macro_rules! with_color {
     (@match $name:expr, $color:ident, $body:expr; $($variant:ident = $type:ident),*) => {
         match $name {$(
             $crate::options::ColorName::$variant => {
-                type $color = embedded_graphics::pixelcolor::$type;
+                type $color = $crate::pixelcolor::$type;
                 $body
             }
         )*}
     };
 }
-pub(crate) use with_color;
+pub use crate::with_color;
 
 /// The name of a choice, as the command line has it.
-pub(crate) fn name_of(choice: impl ValueEnum) -> String {
+pub fn name_of(choice: impl ValueEnum) -> String {
     choice
         .to_possible_value()
         .map(|value| value.get_name().to_owned())

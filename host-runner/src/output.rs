@@ -9,7 +9,7 @@ use crate::interrupt;
 
 /// A place for a picture, known to be writable as far as that can be known before.
 #[derive(Clone, Debug)]
-pub(crate) enum Place {
+pub enum Place {
     /// Standard output.
     Stdout,
     /// A file that is or will be an ordinary one: written beside its place, then renamed.
@@ -29,7 +29,7 @@ impl Place {
     /// # Errors
     ///
     /// [`Failure::Files`].
-    pub(crate) fn file(name: &Path) -> Result<Self, Failure> {
+    pub fn file(name: &Path) -> Result<Self, Failure> {
         let cannot = |why: &dyn std::fmt::Display| Failure::file("write", name, why);
         let target = match fs::metadata(name) {
             Ok(old) if old.is_dir() => {
@@ -61,7 +61,7 @@ impl Place {
     }
 
     /// Its name in messages.
-    pub(crate) fn name(&self) -> String {
+    pub fn name(&self) -> String {
         match self {
             Self::Stdout => "<stdout>".to_owned(),
             Self::File { name, .. } | Self::Device(name) => name.display().to_string(),
@@ -73,7 +73,7 @@ impl Place {
     /// # Errors
     ///
     /// [`Failure::Files`] and [`Failure::ClosedPipe`].
-    pub(crate) fn write(
+    pub fn write(
         &self,
         write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<u64, Failure> {
@@ -85,7 +85,7 @@ impl Place {
     /// # Errors
     ///
     /// [`Failure::Files`], [`Failure::ClosedPipe`] and those of the making.
-    pub(crate) fn write_made(
+    pub fn write_made(
         &self,
         write: impl FnOnce(&mut dyn Write) -> Result<(), Unwritten>,
     ) -> Result<u64, Failure> {
@@ -110,7 +110,7 @@ impl Place {
 
 /// Why something was not written.
 #[derive(Debug)]
-pub(crate) enum Unwritten {
+pub enum Unwritten {
     /// Its file did not take it.
     File(io::Error),
     /// It was not there.
@@ -119,7 +119,7 @@ pub(crate) enum Unwritten {
 
 impl Unwritten {
     /// The end of a command that writes to a place.
-    pub(crate) fn of(self, place: &Place) -> Failure {
+    pub fn of(self, place: &Place) -> Failure {
         match (self, place) {
             (Self::Unmade(failure), _) => failure,
             (Self::File(error), Place::Stdout) => Failure::stdout(&error),

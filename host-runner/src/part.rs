@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 use std::fmt::{self, Write};
 use std::ops::Range;
 
-use scanray::{Resolution, Scalar, Scene, Tree};
+use scanray::{Resolution, Scalar, Scene};
 use sha2::{Digest, Sha256};
 
 use crate::options::Size;
@@ -157,17 +157,12 @@ impl PartRecord {
 /// What identifies a scene: a hash of all that is in it. It does not change with comments, blanks or the
 /// size that the scene asks for, which the record has anyway.
 pub(crate) fn scene_identity<T: Scalar>(scene: &Scene<'_, T>) -> String {
-    let content = Scene {
-        resolution: Resolution {
-            width: 1,
-            height: 1,
-        },
-        // Derived from the rest.
-        sides: &[],
-        zones: &[],
-        tree: Tree::NONE,
-        ..*scene
+    let size = Resolution {
+        width: 1,
+        height: 1,
     };
+    // What is derived follows from the rest.
+    let content = scene.with_resolution(size).without_accel();
     let mut hash = Hashing(Sha256::new());
     // Hashing takes whatever is written.
     let _ = write!(hash, "{}", scanray::bake(&content));

@@ -8,13 +8,13 @@ use scanray::{FromDecimal, Scalar, ScenePools};
 ///
 /// They are statics, never on the stack. Empty pools are all zeros, so that they take no space in the
 /// executable, and no memory before a scene fills them.
-pub(crate) type HostPools<T> = ScenePools<T, 131_072, 1024, 131_072, 262_144, 16, 48, 262_144>;
+pub type HostPools<T> = ScenePools<T, 131_072, 1024, 131_072, 262_144, 16, 48, 262_144>;
 
 static F32: Mutex<HostPools<f32>> = Mutex::new(HostPools::new());
 static F64: Mutex<HostPools<f64>> = Mutex::new(HostPools::new());
 
 /// A scalar that the host has pools for.
-pub(crate) trait HostScalar: Scalar + FromDecimal {
+pub trait HostScalar: Scalar + FromDecimal {
     /// The scalar's pools. Whoever holds them keeps all others waiting.
     fn pools() -> MutexGuard<'static, HostPools<Self>>;
 }

@@ -31,7 +31,7 @@ pub(crate) struct PovScene<'a, T> {
 impl<T: Scalar> fmt::Display for PovScene<'_, T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Resolution { width, height } = self.resolution;
-        let light = self.scene.lights.first();
+        let light = self.scene.lights().first();
         writeln!(
             f,
             "// {}, for POV-Ray 3.7, written by scanray. To draw it with scanray's values:",
@@ -55,10 +55,10 @@ impl<T: Scalar> fmt::Display for PovScene<'_, T> {
         writeln!(
             f,
             "camera {{ perspective location {} direction z up 2*y right {:?}*x }}\n",
-            vector(self.scene.camera.position),
+            vector(self.scene.camera().position),
             2.0 * aspect
         )?;
-        let background = &self.scene.background;
+        let background = &self.scene.background();
         if background.sky {
             writeln!(
                 f,
@@ -85,7 +85,7 @@ impl<T: Scalar> fmt::Display for PovScene<'_, T> {
             let shape = Shape(object);
             let look = Look {
                 material: &material,
-                ambient: self.scene.ambient.to_f64(),
+                ambient: self.scene.ambient().to_f64(),
                 light,
             };
             let casts_shadow = material.index_of_refraction != T::ONE;
@@ -138,6 +138,8 @@ impl<T: Scalar> fmt::Display for Shape<'_, T> {
                 let [a, b, c] = triangle.vertices().map(vector);
                 write!(f, "triangle {{ {a}, {b}, {c}")
             }
+            // `Scene::unknown` has refused others.
+            _ => Err(fmt::Error),
         }
     }
 }

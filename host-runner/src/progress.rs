@@ -11,7 +11,7 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// The progress of some work, shared by all who do it. The bar is gone when this is dropped; where
 /// standard error is no terminal there is none.
 #[derive(Debug)]
-pub(crate) struct Progress {
+pub struct Progress {
     start: Instant,
     bar: ProgressBar,
     shown: Once,
@@ -19,7 +19,7 @@ pub(crate) struct Progress {
 
 impl Progress {
     /// Begins work of as many steps.
-    pub(crate) fn new(what: String, steps: u64) -> Self {
+    pub fn new(what: String, steps: u64) -> Self {
         let bar = ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::hidden())
             .with_message(what);
         if let Ok(style) =
@@ -35,12 +35,12 @@ impl Progress {
     }
 
     /// There are more steps than were known at first.
-    pub(crate) fn expect(&self, more: u64) {
+    pub fn expect(&self, more: u64) {
         self.bar.inc_length(more);
     }
 
     /// Counts steps that are done.
-    pub(crate) fn advance(&self, steps: u64) {
+    pub fn advance(&self, steps: u64) {
         self.bar.inc(steps);
         if self.start.elapsed() > PATIENCE {
             self.shown

@@ -13,11 +13,11 @@ use scanray::{Color, MaterialDescription, Object, Scalar, Scene, Vec3};
 pub(crate) fn write<T: Scalar>(out: &mut dyn Write, scene: &Scene<'_, T>) -> io::Result<()> {
     writeln!(out, "SCENE DATA")?;
     writeln!(out, "Number of Objects: {}", scene.object_count())?;
-    let position = vector(scene.camera.position);
+    let position = vector(scene.camera().position);
     writeln!(out, "Camera Position: {position:.6}")?;
-    let size = scene.resolution;
+    let size = scene.resolution();
     writeln!(out, "Image properties: {}x{}", size.width, size.height)?;
-    for light in scene.lights {
+    for light in scene.lights() {
         let position = vector(light.position);
         writeln!(out, "Light Source Direction: {position:.6}")?;
         let diffuse = color(light.diffuse);
@@ -25,10 +25,10 @@ pub(crate) fn write<T: Scalar>(out: &mut dyn Write, scene: &Scene<'_, T>) -> io:
         let specular = color(light.specular);
         writeln!(out, "Light Source Specular Colour: {specular:.6}")?;
     }
-    writeln!(out, "Ambient Intensity: {:.6}", number(scene.ambient))?;
-    let sky = u8::from(scene.background.sky);
+    writeln!(out, "Ambient Intensity: {:.6}", number(scene.ambient()))?;
+    let sky = u8::from(scene.background().sky);
     writeln!(out, "Use Sky Gradient Background (1-Yes; 0-No): {sky}")?;
-    let background = color(scene.background.color);
+    let background = color(scene.background().color);
     writeln!(out, "Background Colour: {background:.6}")?;
     for object in scene.objects() {
         match object {
@@ -57,6 +57,8 @@ pub(crate) fn write<T: Scalar>(out: &mut dyn Write, scene: &Scene<'_, T>) -> io:
                     number(-normal.dot(v1))
                 )?;
             }
+            // The paper has no layout for others.
+            other => write!(out, "{:?}", other.shape())?,
         }
         write_material(out, &scene.material(object.surface()))?;
     }

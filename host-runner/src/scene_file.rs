@@ -20,7 +20,7 @@ const MAX_TEXT_BYTES: u64 = 256 << 20;
 
 /// Where a scene's text is.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum SceneSource {
+pub enum SceneSource {
     /// In the program.
     Default,
     /// On standard input.
@@ -31,7 +31,7 @@ pub(crate) enum SceneSource {
 
 impl SceneSource {
     /// The scene of a command line, which may name none.
-    pub(crate) fn named(path: Option<&Path>) -> Self {
+    pub fn named(path: Option<&Path>) -> Self {
         match path {
             None => Self::Default,
             Some(path) if path.as_os_str() == "-" => Self::Stdin,
@@ -40,7 +40,7 @@ impl SceneSource {
     }
 
     /// The scenes of a command line that may name several.
-    pub(crate) fn list(paths: &[PathBuf]) -> Vec<Self> {
+    pub fn list(paths: &[PathBuf]) -> Vec<Self> {
         if paths.is_empty() {
             vec![Self::Default]
         } else {
@@ -50,7 +50,7 @@ impl SceneSource {
     }
 
     /// Its file, if it is in one.
-    pub(crate) fn file(&self) -> Option<&PathBuf> {
+    pub fn file(&self) -> Option<&PathBuf> {
         match self {
             Self::File(path) => Some(path),
             Self::Default | Self::Stdin => None,
@@ -58,7 +58,7 @@ impl SceneSource {
     }
 
     /// Its name in messages.
-    pub(crate) fn name(&self) -> String {
+    pub fn name(&self) -> String {
         match self {
             Self::Default => "<default scene>".to_owned(),
             Self::Stdin => "<stdin>".to_owned(),
@@ -67,7 +67,7 @@ impl SceneSource {
     }
 
     /// What a file made from it is called, before the extension.
-    pub(crate) fn stem(&self) -> PathBuf {
+    pub fn stem(&self) -> PathBuf {
         match self {
             Self::Default => "default".into(),
             Self::Stdin => "stdin".into(),
@@ -80,7 +80,7 @@ impl SceneSource {
     /// # Errors
     ///
     /// [`Failure::Files`].
-    pub(crate) fn read(&self) -> Result<Vec<u8>, Failure> {
+    pub fn read(&self) -> Result<Vec<u8>, Failure> {
         let cannot = |error: io::Error| {
             let why = match error.kind() {
                 io::ErrorKind::NotFound => {
@@ -117,7 +117,7 @@ impl SceneSource {
     /// # Errors
     ///
     /// [`Failure::Files`] and [`Failure::Scene`].
-    pub(crate) fn load<T: HostScalar>(&self, pools: &mut HostPools<T>) -> Result<(), Failure> {
+    pub fn load<T: HostScalar>(&self, pools: &mut HostPools<T>) -> Result<(), Failure> {
         self.load_text(&self.read()?, pools)
     }
 
@@ -126,7 +126,7 @@ impl SceneSource {
     /// # Errors
     ///
     /// [`Failure::Scene`].
-    pub(crate) fn load_text<T: HostScalar>(
+    pub fn load_text<T: HostScalar>(
         &self,
         text: &[u8],
         pools: &mut HostPools<T>,
@@ -142,7 +142,7 @@ impl SceneSource {
     /// # Errors
     ///
     /// [`Failure::Scene`].
-    pub(crate) fn check<T: HostScalar>(&self, text: &[u8]) -> Result<(), Failure> {
+    pub fn check<T: HostScalar>(&self, text: &[u8]) -> Result<(), Failure> {
         self.parse(text, &mut T::pools(), &renderer()).map(drop)
     }
 
@@ -151,7 +151,7 @@ impl SceneSource {
     /// # Errors
     ///
     /// [`Failure::Scene`].
-    pub(crate) fn parse<T: HostScalar>(
+    pub fn parse<T: HostScalar>(
         &self,
         text: &[u8],
         pools: &mut HostPools<T>,

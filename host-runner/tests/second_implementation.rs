@@ -1,4 +1,4 @@
-//! The independent C program of benches/reference.c draws the same pictures.
+//! The independent C program of lab/benches/reference.c draws the same pictures.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -36,7 +36,7 @@ fn reference() -> Option<PathBuf> {
     run(Command::new(compiler)
         .args(["-O2", "-o"])
         .arg(&program)
-        .arg(repository().join("host-runner/benches/reference.c"))
+        .arg(repository().join("lab/benches/reference.c"))
         .arg("-lm"));
     Some(program)
 }
@@ -58,12 +58,12 @@ fn agrees_on_every_scene() {
     let Some(reference) = reference() else {
         assert!(
             std::env::var_os("CI").is_none(),
-            "a C compiler is needed to compare with benches/reference.c"
+            "a C compiler is needed to compare with lab/benches/reference.c"
         );
         // Not `println`, which the test harness keeps to itself.
         let _ = writeln!(
             std::io::stderr(),
-            "skipped: no C compiler to build benches/reference.c with"
+            "skipped: no C compiler to build lab/benches/reference.c with"
         );
         return;
     };

@@ -2,7 +2,8 @@
 
 use core::fmt;
 
-use crate::scene::Pool;
+use crate::pools::Pool;
+use crate::stages::Stages;
 
 /// A rejection: where, what was expected there and what was found.
 ///
@@ -85,6 +86,8 @@ pub enum Range {
     TriangleWithArea,
     /// Above 0, because the object refracts.
     RefractiveIndex,
+    /// Nothing that needs these stages, without which the pools are declared.
+    Without(Stages),
 }
 
 /// What is there instead of what was expected.
@@ -179,6 +182,9 @@ impl fmt::Display for Range {
             Self::Distance => "a number that stays finite when divided by the normal's length",
             Self::TriangleWithArea => {
                 "three points that are not on one line and not infinitely far apart"
+            }
+            Self::Without(stages) => {
+                return write!(f, "none: the pools are declared without {stages}");
             }
             Self::RefractiveIndex => "a number above 0, because the refraction is above 0",
         })

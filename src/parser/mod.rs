@@ -8,8 +8,8 @@ mod numeric;
 pub use decimal::{DecimalError, FromDecimal};
 pub use error::{Excerpt, Expected, Found, ParseError, Range};
 
+use crate::pools::{Declared, PoolsMut, ScenePools};
 use crate::scalar::Scalar;
-use crate::scene::{PoolsMut, ScenePools};
 
 /// What is worth knowing about a scene that was accepted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub struct Report {
     pub short_light_line: Option<u32>,
 }
 
-impl<T: Scalar + FromDecimal> PoolsMut<'_, T> {
+impl<T: Scalar + FromDecimal, D: Declared> PoolsMut<'_, T, D> {
     /// Replaces the scene in the pools by that of a text in the numeric dialect.
     ///
     /// # Errors
@@ -48,8 +48,8 @@ impl<
     const MATERIALS: usize,
     const LIGHTS: usize,
     const SIDES: usize,
-    const TREE: usize,
-> ScenePools<T, SPHERES, PLANES, TRIANGLES, MATERIALS, LIGHTS, SIDES, TREE>
+    const BVH: usize,
+> ScenePools<T, SPHERES, PLANES, TRIANGLES, MATERIALS, LIGHTS, SIDES, BVH>
 {
     /// Replaces the scene in the pools by that of a text in the numeric dialect.
     ///

@@ -23,15 +23,15 @@ use crate::camera::{Camera, Resolution};
 use crate::color::Color;
 use crate::light::Light;
 use crate::material::MaterialDescription;
+use crate::pools::{Declared, Pool, PoolsMut, SceneError};
 use crate::scalar::Scalar;
-use crate::scene::{Pool, PoolsMut, SceneError};
 use crate::shape::ShapeError;
 use crate::vec3::Vec3;
 
 /// Reads a scene into empty pools. After an error they hold a part of it.
-pub(super) fn read<T: Scalar + FromDecimal>(
+pub(super) fn read<T: Scalar + FromDecimal, D: Declared>(
     text: &[u8],
-    pools: &mut PoolsMut<'_, T>,
+    pools: &mut PoolsMut<'_, T, D>,
 ) -> Result<Report, ParseError> {
     let mut records = Records::new(text);
     let mut report = Report::default();
@@ -130,9 +130,9 @@ fn read_light<T: Scalar + FromDecimal>(
     })
 }
 
-fn read_object<T: Scalar + FromDecimal>(
+fn read_object<T: Scalar + FromDecimal, D: Declared>(
     records: &mut Records<'_>,
-    pools: &mut PoolsMut<'_, T>,
+    pools: &mut PoolsMut<'_, T, D>,
     number: u32,
     of: u32,
 ) -> Result<(), ParseError> {
@@ -214,9 +214,10 @@ fn read_object<T: Scalar + FromDecimal>(
         Err(SceneError::PoolFull { pool, capacity }) => {
             Err(records.no_room(first, pool, capacity, Some(number)))
         }
-        Err(SceneError::Shape(_)) => {
-            Err(records.unfit("triangle", Range::TriangleWithArea, geometry))
+        Err(SceneError::LeftOut { stage }) => {
+            Err(records.unfit("material", Range::Without(stage), geometry))
         }
+        Err(_) => Err(records.unfit("triangle", Range::TriangleWithArea, geometry)),
     }
 }
 

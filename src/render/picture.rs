@@ -34,7 +34,7 @@ pub trait PixelSource {
     fn pixel_on(&self, scanline: &Self::Scanline, x: u16) -> (Color<Self::Scalar>, u32);
 }
 
-impl<T: Scalar, const NEEDS: u32, const STACK: usize> PixelSource for Tracer<'_, T, NEEDS, STACK> {
+impl<T: Scalar, const NEEDS: u64, const STACK: usize> PixelSource for Tracer<'_, T, NEEDS, STACK> {
     type Scalar = T;
     type Scanline = Scanline<T>;
 

@@ -23,7 +23,7 @@ pub trait SampleSource: PixelSource {
     ) -> Color<Self::Scalar>;
 }
 
-impl<T: Scalar, const NEEDS: u32, const STACK: usize> SampleSource for Tracer<'_, T, NEEDS, STACK> {
+impl<T: Scalar, const NEEDS: u64, const STACK: usize> SampleSource for Tracer<'_, T, NEEDS, STACK> {
     #[inline(always)]
     fn scanline_at(&self, y: u16, at: Subpixel) -> Scanline<T> {
         Tracer::scanline_at(self, y, at)

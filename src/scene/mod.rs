@@ -1,121 +1,223 @@
 //! A scene: borrowed slices, wherever they are stored.
 
 mod needs;
-mod pools;
-mod reach;
-mod tree;
-mod zones;
 
-pub use needs::Needs;
-pub use pools::{Pool, PoolUse, PoolsMut, SceneError, ScenePools};
-pub(crate) use reach::Members;
-pub use reach::{ObjectSet, Octant, Reach};
-pub use tree::{NodeContent, Tree, TreeEntry, TreeNode};
-pub use zones::{Strip, Zones};
-pub(crate) use zones::{Zone, across};
-
+use crate::accel::{Accel, Source};
 use crate::background::Background;
 use crate::camera::{Camera, Resolution};
 use crate::color::Color;
 use crate::light::Light;
 use crate::material::{Material, MaterialDescription};
 use crate::scalar::Scalar;
-use crate::shape::{Plane, Sphere, Surface, Triangle};
+use crate::shape::{Geometry, Object, Plane, Sphere, Surface, Triangle};
+use crate::vec3::Vec3;
 
-/// A view of a scene in [`ScenePools`] or in flash; copying it copies no object.
+/// A view of a scene in [`ScenePools`](crate::ScenePools) or in flash; copying it copies no object.
 ///
-/// The tracer relies on the objects of each slice being in the order of their numbers, and on these
-/// being different. An object whose material index is out of range shows the background.
+/// What was derived from a scene ([`Accel`]) goes with it: methods that change what it was derived from drop it, so that a picture
+/// may take longer but is never wrong. ([`PoolsMut::prepare`](crate::PoolsMut::prepare) and baking derive it.) An object whose material index is out of
+/// range shows the background.
+///
+/// ```
+/// use scanray::{Light, Scene, ScenePools, Tracer, Vec3};
+///
+/// # let mut pools: ScenePools = ScenePools::new();
+/// # #[cfg(feature = "parser")]
+/// pools.parse(include_bytes!("../../scenes/default.txt"))?;
+/// let scene = pools.as_scene();
+/// let mine = [Light { position: Vec3::new(-3.0, 9.0, 0.0), ..Light::WHITE }];
+/// let tracer = Tracer::new(scene.with_lights(&mine));
+/// # let _ = tracer;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scene<'a, T = f32> {
-    /// Where it is seen from.
-    pub camera: Camera<T>,
-    /// Size of its picture, unless the tracer is told otherwise.
-    pub resolution: Resolution,
-    /// Intensity of the ambient light.
-    pub ambient: T,
-    /// What is behind everything.
-    pub background: Background<T>,
-    /// Lights.
-    pub lights: &'a [Light<T>],
-    /// Spheres.
-    pub spheres: &'a [Sphere<T>],
-    /// Planes.
-    pub planes: &'a [Plane<T>],
-    /// Triangles.
-    pub triangles: &'a [Triangle<T>],
-    /// Materials, which the objects share.
-    pub materials: &'a [Material<T>],
-    /// What rays can meet that leave each side of each object, by [`Side::index`](crate::Side::index);
-    /// where there is no entry, anything.
-    pub sides: &'a [Reach],
-    /// What rays can meet that leave each plane, by place; where there is no entry, what `sides` says.
-    pub zones: &'a [Zones<T>],
-    /// Of a large scene, what its spheres and triangles are found by.
-    pub tree: Tree<'a, T>,
-}
-
-/// An object of a scene, of any shape.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Object<'a, T = f32> {
-    /// A sphere.
-    Sphere(&'a Sphere<T>),
-    /// A plane.
-    Plane(&'a Plane<T>),
-    /// A triangle.
-    Triangle(&'a Triangle<T>),
-}
-
-impl<T: Scalar> Object<'_, T> {
-    /// Material and place in the file.
-    #[inline(always)]
-    pub fn surface(&self) -> Surface {
-        match self {
-            Self::Sphere(sphere) => sphere.surface(),
-            Self::Plane(plane) => plane.surface(),
-            Self::Triangle(triangle) => triangle.surface(),
-        }
-    }
+    pub(crate) camera: Camera<T>,
+    pub(crate) resolution: Resolution,
+    pub(crate) ambient: T,
+    pub(crate) background: Background<T>,
+    pub(crate) lights: &'a [Light<T>],
+    pub(crate) geometry: Geometry<'a, T>,
+    pub(crate) materials: &'a [Material<T>],
+    pub(crate) accel: Accel<'a, T>,
 }
 
 impl<'a, T: Scalar> Scene<'a, T> {
+    /// No objects, no lights, a black background, no pixels.
+    // All bits of it but the lengths' are zero, so that empty pools in a `static` take no flash.
+    pub const EMPTY: Self = Self {
+        camera: Camera {
+            position: Vec3::new(T::ZERO, T::ZERO, T::ZERO),
+        },
+        resolution: Resolution {
+            width: 0,
+            height: 0,
+        },
+        ambient: T::ZERO,
+        background: Background {
+            color: Color::BLACK,
+            sky: false,
+        },
+        lights: &[],
+        geometry: Geometry::NONE,
+        materials: &[],
+        accel: Accel::NONE,
+    };
+
+    /// The scene seen by another camera.
+    #[must_use]
+    pub const fn with_camera(mut self, camera: Camera<T>) -> Self {
+        self.camera = camera;
+        self
+    }
+
+    /// The scene with another size of its picture.
+    #[must_use]
+    pub const fn with_resolution(mut self, resolution: Resolution) -> Self {
+        self.resolution = resolution;
+        self
+    }
+
+    /// The scene in another ambient light.
+    #[must_use]
+    pub const fn with_ambient(mut self, ambient: T) -> Self {
+        self.ambient = ambient;
+        self.accel.knows_faint = false;
+        self
+    }
+
+    /// The scene before another background.
+    #[must_use]
+    pub const fn with_background(mut self, background: Background<T>) -> Self {
+        self.background = background;
+        self
+    }
+
+    /// The scene in other lights; drops what was derived.
+    #[must_use]
+    pub const fn with_lights(mut self, lights: &'a [Light<T>]) -> Self {
+        self.lights = lights;
+        self.without_accel()
+    }
+
+    /// The scene of other objects; drops what was derived.
+    #[must_use]
+    pub const fn with_geometry(mut self, geometry: Geometry<'a, T>) -> Self {
+        self.geometry = geometry;
+        self.without_accel()
+    }
+
+    /// The scene with other spheres; drops what was derived.
+    #[must_use]
+    pub const fn with_spheres(mut self, spheres: &'a [Sphere<T>]) -> Self {
+        self.geometry.spheres = spheres;
+        self.without_accel()
+    }
+
+    /// The scene with other planes; drops what was derived.
+    #[must_use]
+    pub const fn with_planes(mut self, planes: &'a [Plane<T>]) -> Self {
+        self.geometry.planes = planes;
+        self.without_accel()
+    }
+
+    /// The scene with other triangles; drops what was derived.
+    #[must_use]
+    pub const fn with_triangles(mut self, triangles: &'a [Triangle<T>]) -> Self {
+        self.geometry.triangles = triangles;
+        self.without_accel()
+    }
+
+    /// The scene of other materials; drops what was derived.
+    #[must_use]
+    pub const fn with_materials(mut self, materials: &'a [Material<T>]) -> Self {
+        self.materials = materials;
+        self.without_accel()
+    }
+
+    /// The scene without what was derived: the same picture by testing every object.
+    #[must_use]
+    pub const fn without_accel(mut self) -> Self {
+        self.accel = Accel::NONE;
+        self
+    }
+
+    /// For baked scenes alone: nothing checks that it belongs to the scene.
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn with_accel(mut self, accel: Accel<'a, T>) -> Self {
+        self.accel = accel;
+        self
+    }
+
+    /// Where it is seen from.
+    pub const fn camera(&self) -> Camera<T> {
+        self.camera
+    }
+
+    /// Size of its picture, unless the tracer is told otherwise.
+    pub const fn resolution(&self) -> Resolution {
+        self.resolution
+    }
+
+    /// Intensity of the ambient light.
+    pub const fn ambient(&self) -> T {
+        self.ambient
+    }
+
+    /// What is behind everything.
+    pub const fn background(&self) -> Background<T> {
+        self.background
+    }
+
+    /// Lights.
+    pub const fn lights(&self) -> &'a [Light<T>] {
+        self.lights
+    }
+
+    /// The objects, kind by kind.
+    pub const fn geometry(&self) -> Geometry<'a, T> {
+        self.geometry
+    }
+
+    /// Spheres.
+    pub const fn spheres(&self) -> &'a [Sphere<T>] {
+        self.geometry.spheres
+    }
+
+    /// Planes.
+    pub const fn planes(&self) -> &'a [Plane<T>] {
+        self.geometry.planes
+    }
+
+    /// Triangles.
+    pub const fn triangles(&self) -> &'a [Triangle<T>] {
+        self.geometry.triangles
+    }
+
+    /// Materials, which the objects share.
+    pub const fn materials(&self) -> &'a [Material<T>] {
+        self.materials
+    }
+
+    /// What was derived.
+    pub const fn accel(&self) -> &Accel<'a, T> {
+        &self.accel
+    }
+
     /// Number of objects.
     pub const fn object_count(&self) -> usize {
-        self.spheres.len() + self.planes.len() + self.triangles.len()
+        self.geometry.count()
     }
 
     /// The object of an index among all: spheres first, then planes, then triangles.
     pub fn object(&self, index: usize) -> Option<Object<'a, T>> {
-        let after_spheres = index.wrapping_sub(self.spheres.len());
-        let after_planes = after_spheres.wrapping_sub(self.planes.len());
-        if let Some(sphere) = self.spheres.get(index) {
-            Some(Object::Sphere(sphere))
-        } else if let Some(plane) = self.planes.get(after_spheres) {
-            Some(Object::Plane(plane))
-        } else {
-            self.triangles.get(after_planes).map(Object::Triangle)
-        }
+        self.geometry.object(index)
     }
 
-    /// The objects of all shapes, in the order of the file.
+    /// The objects of all shapes, in the order of the text.
     pub fn objects(&self) -> impl Iterator<Item = Object<'a, T>> + use<'a, T> {
-        let mut spheres = self.spheres.iter().map(Object::Sphere).peekable();
-        let mut planes = self.planes.iter().map(Object::Plane).peekable();
-        let mut triangles = self.triangles.iter().map(Object::Triangle).peekable();
-        core::iter::from_fn(move || {
-            let number = |object: Option<&Object<'a, T>>| object.map(|o| o.surface().number);
-            let next = [
-                number(spheres.peek()),
-                number(planes.peek()),
-                number(triangles.peek()),
-            ];
-            let first = next.iter().flatten().min().copied();
-            match next.iter().position(|n| n.is_some() && *n == first) {
-                Some(0) => spheres.next(),
-                Some(1) => planes.next(),
-                _ => triangles.next(),
-            }
-        })
+        self.geometry.in_text_order()
     }
 
     /// What a surface is made of; all numbers are 0 if the scene has no such material.
@@ -124,6 +226,15 @@ impl<'a, T: Scalar> Scene<'a, T> {
             .get(surface.material as usize)
             .map(|m| *m.description())
             .unwrap_or_default()
+    }
+
+    /// What candidates and boxes are derived from.
+    pub(crate) const fn source(&self) -> Source<'a, T> {
+        Source {
+            geometry: self.geometry,
+            lights: self.lights,
+            materials: self.materials,
+        }
     }
 
     /// Ambient light that a material sends back.

@@ -1,23 +1,270 @@
-//! The three shapes: sphere, plane, triangle.
+//! The shapes: what each is, and the one list of them.
 //!
-//! Each has `intersect(ray, t_max)`, the nearest meeting within `0 < t ≤ t_max`, and
+//! A shape implements [`Primitive`] and stands in [`for_each_shape!`], [`Kind`], [`Object`], [`Shape`] and [`Geometry`], all in
+//! this folder. Its bounds alone put it into exact visibility and the BVH.
+//!
+//! Each has `intersect(ray, t_max)`, the nearest hit within `0 < t ≤ t_max`, and
 //! `occludes(ray, t_max)`, whether there is any within `0 < t < t_max`. `t_max` must be finite, so
 //! that a distance always is; NaN anywhere is a miss.
 
 mod coarse;
+mod geometry;
 mod plane;
 mod sphere;
 mod triangle;
 
+pub use geometry::Geometry;
 pub use plane::Plane;
 pub use sphere::Sphere;
 pub use triangle::{Barycentric, Triangle};
 
 use core::fmt;
 
-use crate::ray::ObjectNumber;
+use crate::ray::{ObjectNumber, Ray};
 use crate::scalar::Scalar;
+use crate::stages::Stages;
 use crate::vec3::Vec3;
+
+/// The one list of the shapes: calls a macro with it. Of two objects at exactly the same distance the kind that comes first
+/// here is hit.
+macro_rules! for_each_shape {
+    ($then:ident $($with:tt)*) => {
+        $then! { [Sphere Plane Triangle] $($with)* }
+    };
+}
+pub(crate) use for_each_shape;
+
+/// Of an object of any shape what all have: `of_any_shape!(object, it => it.material())`.
+macro_rules! of_any_shape {
+    ($object:expr, $it:ident => $call:expr) => {
+        $crate::shape::for_each_shape!(match_shape $object, $it => $call)
+    };
+}
+
+/// The arms of [`of_any_shape`].
+macro_rules! match_shape {
+    ([$($shape:ident)*] $object:expr, $it:ident => $call:expr) => {
+        match $object { $($crate::shape::Object::$shape($it) => $call,)* }
+    };
+}
+
+/// A kind of shape.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Kind {
+    /// Spheres.
+    Sphere,
+    /// Planes.
+    Plane,
+    /// Triangles.
+    Triangle,
+}
+
+impl Kind {
+    /// All kinds, in the order of the indices of objects.
+    pub const ALL: [Self; Self::COUNT] = [Self::Sphere, Self::Plane, Self::Triangle];
+
+    /// How many kinds there are.
+    pub const COUNT: usize = 3;
+
+    /// Its place in [`Kind::ALL`].
+    pub const fn index(self) -> usize {
+        self as usize
+    }
+
+    /// Its name in messages, in the singular.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Sphere => "sphere",
+            Self::Plane => "plane",
+            Self::Triangle => "triangle",
+        }
+    }
+}
+
+/// An object of a scene, of any shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Object<'a, T = f32> {
+    /// A sphere.
+    Sphere(&'a Sphere<T>),
+    /// A plane.
+    Plane(&'a Plane<T>),
+    /// A triangle.
+    Triangle(&'a Triangle<T>),
+}
+
+/// What an object is, in the numbers that describe it: what parsers, printers and programs hand on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Shape<T = f32> {
+    /// All points at a distance from a centre.
+    Sphere {
+        /// Centre.
+        center: Vec3<T>,
+        /// Radius, above 0; its square must be finite.
+        radius: T,
+    },
+    /// All points with `normal·p + distance = 0`.
+    Plane {
+        /// Normal, of any length but 0.
+        normal: Vec3<T>,
+        /// Distance, in units of the normal's length.
+        distance: T,
+    },
+    /// Three vertices and what is between them; the normal is `normalize((v3 − v1) × (v2 − v1))`.
+    Triangle([Vec3<T>; 3]),
+}
+
+/// How the numbers of a shape are changed: moved, turned, scaled, mirrored, rounded to another scalar.
+pub trait Transform<T: Scalar, U: Scalar = T> {
+    /// Where a point goes.
+    fn point(&self, point: Vec3<T>) -> Vec3<U>;
+
+    /// How a normal is turned; its length does not matter.
+    fn normal(&self, normal: Vec3<T>) -> Vec3<U>;
+
+    /// How long a length becomes.
+    fn length(&self, length: T) -> U;
+
+    /// Where the points with `normal·p + distance = 0` go, the normal's length kept. Unless it is said otherwise the origin stays.
+    fn plane(&self, normal: Vec3<T>, distance: T) -> (Vec3<U>, U) {
+        (self.normal(normal), self.length(distance))
+    }
+}
+
+impl<T: Scalar> Shape<T> {
+    /// The shape changed.
+    #[must_use]
+    pub fn transformed<U: Scalar>(self, by: &impl Transform<T, U>) -> Shape<U> {
+        match self {
+            Self::Sphere { center, radius } => Shape::Sphere {
+                center: by.point(center),
+                radius: by.length(radius),
+            },
+            Self::Plane { normal, distance } => {
+                let (normal, distance) = by.plane(normal, distance);
+                Shape::Plane { normal, distance }
+            }
+            Self::Triangle([v1, v2, v3]) => {
+                Shape::Triangle([by.point(v1), by.point(v2), by.point(v3)])
+            }
+        }
+    }
+}
+
+impl<T> Shape<T> {
+    /// Its kind.
+    pub const fn kind(&self) -> Kind {
+        match self {
+            Self::Sphere { .. } => Kind::Sphere,
+            Self::Plane { .. } => Kind::Plane,
+            Self::Triangle(_) => Kind::Triangle,
+        }
+    }
+}
+
+/// A ball around an object.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BoundingSphere<T = f32> {
+    /// Centre.
+    pub center: Vec3<T>,
+    /// Radius.
+    pub radius: T,
+}
+
+/// What the tracer asks of a shape.
+pub(crate) trait Primitive<T: Scalar>: Copy {
+    /// Its kind.
+    const KIND: Kind;
+    /// The stage that draws it.
+    const STAGE: Stages;
+    /// The stage that draws more than one of it.
+    const SEVERAL: Stages;
+    /// A ray that leaves it cannot hit it again, whatever rounding says.
+    const IS_FLAT: bool;
+    /// [`Primitive::point`] needs the place that [`Primitive::hit`] tells.
+    const HAS_PLACE: bool;
+
+    /// All of this kind.
+    fn all<'a>(geometry: &Geometry<'a, T>) -> &'a [Self];
+
+    /// The object in general.
+    fn object(&self) -> Object<'_, T>;
+
+    /// What describes it.
+    fn shape(&self) -> Shape<T>;
+
+    /// Material and place in the text.
+    fn surface(&self) -> Surface;
+
+    /// Another material.
+    fn set_material(&mut self, material: u32);
+
+    /// A ball around it; `None` if it is unbounded, or as good as that.
+    fn bounding_sphere(&self) -> Option<BoundingSphere<T>>;
+
+    /// The lowest and the highest coordinates of what rays can hit; `None` if it is unbounded.
+    fn bounding_box(&self) -> Option<[Vec3<T>; 2]>;
+
+    /// Distance, above 0, of the nearest hit, and where on the object. One beyond `t_max` may be told or not.
+    fn hit(&self, ray: &Ray<T>, t_max: T) -> Option<(T, Barycentric<T>)>;
+
+    /// Whether there is a hit within `0 < t < t_max`.
+    fn occludes(&self, ray: &Ray<T>, t_max: T) -> bool;
+
+    /// The point of a hit, projected back onto the surface.
+    fn point(&self, ray: &Ray<T>, t: T, place: Barycentric<T>) -> SurfacePoint<T>;
+
+    /// Name of its type, and the arguments of its `from_parts` but the last, for baked scenes.
+    #[cfg(feature = "bake")]
+    fn parts(&self) -> (&'static str, [Option<Part<T>>; 6]);
+}
+
+/// An argument of `from_parts`.
+#[cfg(feature = "bake")]
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Part<T> {
+    /// A number.
+    Number(T),
+    /// A vector.
+    Vector(Vec3<T>),
+    /// Several vectors.
+    Vectors([Vec3<T>; 3]),
+}
+
+impl<T: Scalar> Object<'_, T> {
+    /// Material and place in the text.
+    #[inline(always)]
+    pub fn surface(&self) -> Surface {
+        of_any_shape!(self, it => it.surface())
+    }
+
+    /// Its kind.
+    pub fn kind(&self) -> Kind {
+        self.shape().kind()
+    }
+
+    /// What describes it.
+    pub fn shape(&self) -> Shape<T> {
+        of_any_shape!(self, it => Primitive::shape(*it))
+    }
+
+    /// The lowest and the highest coordinates of what rays can hit; `None` if it is unbounded.
+    pub fn bounding_box(&self) -> Option<[Vec3<T>; 2]> {
+        of_any_shape!(self, it => Primitive::bounding_box(*it))
+    }
+
+    /// Whether it has a bounding box.
+    pub(crate) fn is_bounded(&self) -> bool {
+        self.bounding_box().is_some()
+    }
+
+    /// A ball around it; `None` if it is unbounded, or as good as that.
+    pub fn bounding_sphere(&self) -> Option<BoundingSphere<T>> {
+        of_any_shape!(self, it => Primitive::bounding_sphere(*it))
+    }
+}
 
 /// What belongs to an object besides its geometry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,14 @@
 //! Infinite planes.
 
-use super::{ShapeError, Surface, SurfacePoint};
-use crate::ray::{Ray, origin_offset};
+use super::{
+    Barycentric, BoundingSphere, Geometry, Kind, Object, Primitive, Shape, ShapeError, Surface,
+    SurfacePoint,
+};
+use crate::formula;
+use crate::ray::Ray;
+use crate::real::Real;
 use crate::scalar::Scalar;
+use crate::stages::Stages;
 use crate::vec3::Vec3;
 
 /// The plane of the points with `normal·p = height`; the `distance` of scene text is `−height`.
@@ -50,17 +56,13 @@ impl<T: Scalar> Plane<T> {
         self.height
     }
 
-    pub(crate) fn set_material(&mut self, material: u32) {
-        self.surface.material = material;
-    }
-
     /// Material and place in the file.
     #[inline(always)]
     pub const fn surface(&self) -> Surface {
         self.surface
     }
 
-    /// Distance of the crossing within `0 < t ≤ t_max`. A ray in the plane, parallel to it or leaving
+    /// Distance of the crossing within `0 < t ≤ t_max`. A ray in the plane or parallel to
     /// it does not cross it.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray<T>, t_max: T) -> Option<T> {
@@ -70,14 +72,17 @@ impl<T: Scalar> Plane<T> {
     /// [`Plane::intersect`] without a limit; the distance may be infinite.
     #[inline(always)]
     pub(crate) fn meet(&self, ray: &Ray<T>) -> Option<T> {
-        let below = self.height.minus(ray.origin.component_along(self.normal));
-        let slope = ray.direction.component_along(self.normal);
-        if T::EMULATED && below.is_negative() != slope.is_negative() {
+        let (below, slope) = formula::plane::rise(
+            self.normal.real(),
+            Real(self.height),
+            ray.origin.real(),
+            ray.direction.real(),
+        );
+        if T::EMULATED && below.0.is_negative() != slope.0.is_negative() {
             return None;
         }
-        let t = below.over(slope);
-        // A ray that leaves the plane is rare among those tested, so that is asked last.
-        (t.is_positive() && ray.leaves.object() != self.surface.number).then_some(t)
+        let t = (below / slope).0;
+        t.is_positive().then_some(t)
     }
 
     /// Whether the ray crosses the plane within `0 < t < t_max`.
@@ -86,20 +91,87 @@ impl<T: Scalar> Plane<T> {
         matches!(self.intersect(ray, t_max), Some(t) if t < t_max)
     }
 
-    /// The point at distance `t`, projected back onto the plane: at grazing angles `t` is uncertain by
-    /// `u/cos θ`.
+    /// The point at distance `t`, projected back onto the plane.
     #[inline(always)]
     pub fn surface_point(&self, ray: &Ray<T>, t: T) -> SurfacePoint<T> {
-        let n = self.normal;
-        let approximate = ray.at(t);
-        let above = approximate.component_along(n).minus(self.height);
-        let point = approximate.moved_along(n, -above);
-        let components = point.abs().component_along(n.abs());
+        let (normal, height) = (self.normal.real(), Real(self.height));
+        let point = formula::plane::project(ray.at(t).real(), normal, height);
         SurfacePoint {
-            point,
-            normal: n,
-            offset: origin_offset(components, self.height.abs()),
+            point: point.plain(),
+            normal: self.normal,
+            offset: formula::plane::offset(point, normal, height).0,
         }
+    }
+}
+
+impl<T: Scalar> Primitive<T> for Plane<T> {
+    const KIND: Kind = Kind::Plane;
+    const STAGE: Stages = Stages::PLANES;
+    const SEVERAL: Stages = Stages::SEVERAL_PLANES;
+    const IS_FLAT: bool = true;
+    const HAS_PLACE: bool = false;
+
+    #[inline(always)]
+    fn all<'a>(geometry: &Geometry<'a, T>) -> &'a [Self] {
+        geometry.planes
+    }
+
+    #[inline(always)]
+    fn object(&self) -> Object<'_, T> {
+        Object::Plane(self)
+    }
+
+    fn shape(&self) -> Shape<T> {
+        Shape::Plane {
+            normal: self.normal,
+            distance: -self.height,
+        }
+    }
+
+    #[inline(always)]
+    fn surface(&self) -> Surface {
+        self.surface
+    }
+
+    fn set_material(&mut self, material: u32) {
+        self.surface.material = material;
+    }
+
+    fn bounding_sphere(&self) -> Option<BoundingSphere<T>> {
+        None
+    }
+
+    fn bounding_box(&self) -> Option<[Vec3<T>; 2]> {
+        None
+    }
+
+    #[inline(always)]
+    fn hit(&self, ray: &Ray<T>, _: T) -> Option<(T, Barycentric<T>)> {
+        Some((self.meet(ray)?, Barycentric::ZERO))
+    }
+
+    #[inline(always)]
+    fn occludes(&self, ray: &Ray<T>, t_max: T) -> bool {
+        self.occludes(ray, t_max)
+    }
+
+    #[inline(always)]
+    fn point(&self, ray: &Ray<T>, t: T, _: Barycentric<T>) -> SurfacePoint<T> {
+        self.surface_point(ray, t)
+    }
+
+    #[cfg(feature = "bake")]
+    fn parts(&self) -> (&'static str, [Option<super::Part<T>>; 6]) {
+        use super::Part::{Number, Vector};
+        let parts = [
+            Some(Vector(self.normal)),
+            Some(Number(self.height)),
+            None,
+            None,
+            None,
+            None,
+        ];
+        ("Plane", parts)
     }
 }
 
@@ -131,15 +203,6 @@ mod tests {
         assert_eq!(t(1.0, 1.0, 0.0), None);
         assert_eq!(t(1.0, 0.0, 1.0), None);
         assert_eq!(t(-1.0, 0.0, 1.0), None);
-    }
-
-    #[test]
-    fn a_ray_that_leaves_it_does_not_meet_it() {
-        let plane = Plane::new(Vec3::new(0.0_f32, 1.0, 0.0), 1.0, SURFACE).unwrap();
-        let mut ray = Ray::new(Vec3::new(0.0, -0.9, 0.0), Vec3::new(0.0, -1.0, 0.0));
-        assert!(plane.intersect(&ray, f32::MAX).is_some());
-        ray.leaves = crate::ray::Side::new(SURFACE.number, true);
-        assert_eq!(plane.intersect(&ray, f32::MAX), None);
     }
 
     #[test]

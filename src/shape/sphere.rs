@@ -1,9 +1,15 @@
 //! Spheres.
 
 use super::coarse::Sighting;
-use super::{ShapeError, Surface, SurfacePoint};
-use crate::ray::{Ray, origin_offset};
+use super::{
+    Barycentric, BoundingSphere, Geometry, Kind, Object, Primitive, Shape, ShapeError, Surface,
+    SurfacePoint,
+};
+use crate::formula::{self, origin_offset};
+use crate::ray::Ray;
+use crate::real::Real;
 use crate::scalar::Scalar;
+use crate::stages::Stages;
 use crate::vec3::Vec3;
 
 /// A sphere.
@@ -88,10 +94,6 @@ impl<T: Scalar> Sphere<T> {
         self.offset
     }
 
-    pub(crate) fn set_material(&mut self, material: u32) {
-        self.surface.material = material;
-    }
-
     /// Material and place in the file.
     #[inline(always)]
     pub const fn surface(&self) -> Surface {
@@ -108,22 +110,20 @@ impl<T: Scalar> Sphere<T> {
     }
 
     /// The distances of both crossings of the ray's line, nearer first.
-    ///
-    /// The discriminant comes from the squared distance between centre and line, `r² − |f − d·b|²`,
-    /// not from the difference of two squares `b² − (f·f − r²)`, which at radius/distance 1e-4
-    /// misjudges a third of all rays in `f32`. Ray Tracing Gems, ch. 7 (Haines et al.).
     #[inline(always)]
     fn crossings(&self, ray: &Ray<T>) -> Option<(T, T)> {
         if T::EMULATED && self.clearly_misses(ray) {
             return None;
         }
-        let f = self.center - ray.origin;
-        let b = f.dot(ray.direction);
-        let l = f - ray.direction * b;
-        let discriminant = self.radius_squared.minus(l.dot(l));
-        if discriminant.is_zero_or_positive() {
-            let half_chord = discriminant.sqrt();
-            Some((b.minus(half_chord), b.plus(half_chord)))
+        let (middle, discriminant) = formula::sphere::chord(
+            self.center.real(),
+            Real(self.radius_squared),
+            ray.origin.real(),
+            ray.direction.real(),
+        );
+        if discriminant.0.is_zero_or_positive() {
+            let (near, far) = formula::sphere::crossings(middle, discriminant);
+            Some((near.0, far.0))
         } else {
             None
         }
@@ -159,16 +159,92 @@ impl<T: Scalar> Sphere<T> {
         }
     }
 
-    /// The point at distance `t`, projected back onto the sphere: far from the camera `t` alone may be
-    /// wrong by more than the radius.
+    /// The point at distance `t`, projected back onto the sphere.
     #[inline(always)]
     pub fn surface_point(&self, ray: &Ray<T>, t: T) -> SurfacePoint<T> {
-        let normal = (ray.at(t) - self.center).normalize();
+        let place = ray.at(t).real();
+        let (point, normal) =
+            formula::sphere::project(place, self.center.real(), Real(self.radius));
         SurfacePoint {
-            point: self.center + normal * self.radius,
-            normal,
+            point: point.plain(),
+            normal: normal.plain(),
             offset: self.offset,
         }
+    }
+}
+
+impl<T: Scalar> Primitive<T> for Sphere<T> {
+    const KIND: Kind = Kind::Sphere;
+    const STAGE: Stages = Stages::SPHERES;
+    const SEVERAL: Stages = Stages::SEVERAL_SPHERES;
+    const IS_FLAT: bool = false;
+    const HAS_PLACE: bool = false;
+
+    #[inline(always)]
+    fn all<'a>(geometry: &Geometry<'a, T>) -> &'a [Self] {
+        geometry.spheres
+    }
+
+    #[inline(always)]
+    fn object(&self) -> Object<'_, T> {
+        Object::Sphere(self)
+    }
+
+    fn shape(&self) -> Shape<T> {
+        Shape::Sphere {
+            center: self.center,
+            radius: self.radius,
+        }
+    }
+
+    #[inline(always)]
+    fn surface(&self) -> Surface {
+        self.surface
+    }
+
+    fn set_material(&mut self, material: u32) {
+        self.surface.material = material;
+    }
+
+    fn bounding_sphere(&self) -> Option<BoundingSphere<T>> {
+        Some(BoundingSphere {
+            center: self.center,
+            radius: self.radius,
+        })
+    }
+
+    fn bounding_box(&self) -> Option<[Vec3<T>; 2]> {
+        let radius = Vec3::splat(self.radius);
+        Some([self.center - radius, self.center + radius])
+    }
+
+    #[inline(always)]
+    fn hit(&self, ray: &Ray<T>, _: T) -> Option<(T, Barycentric<T>)> {
+        Some((self.meet(ray)?, Barycentric::ZERO))
+    }
+
+    #[inline(always)]
+    fn occludes(&self, ray: &Ray<T>, t_max: T) -> bool {
+        self.occludes(ray, t_max)
+    }
+
+    #[inline(always)]
+    fn point(&self, ray: &Ray<T>, t: T, _: Barycentric<T>) -> SurfacePoint<T> {
+        self.surface_point(ray, t)
+    }
+
+    #[cfg(feature = "bake")]
+    fn parts(&self) -> (&'static str, [Option<super::Part<T>>; 6]) {
+        use super::Part::{Number, Vector};
+        let parts = [
+            Some(Vector(self.center)),
+            Some(Number(self.radius_squared)),
+            Some(Number(self.radius)),
+            Some(Number(self.offset)),
+            None,
+            None,
+        ];
+        ("Sphere", parts)
     }
 }
 

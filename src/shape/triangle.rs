@@ -1,9 +1,16 @@
 //! Triangles.
 
 use super::coarse::Sighting;
-use super::{ShapeError, Surface, SurfacePoint, extent};
-use crate::ray::{Ray, origin_offset};
+use super::{
+    BoundingSphere, Geometry, Kind, Object, Primitive, Shape, ShapeError, Surface, SurfacePoint,
+    extent,
+};
+use crate::formula::triangle::{Shear, edge, interpolate, point, product_error, reach, slack};
+use crate::formula::{origin_offset, sphere::closest_approach};
+use crate::ray::Ray;
+use crate::real::Real;
 use crate::scalar::Scalar;
+use crate::stages::Stages;
 use crate::vec3::Vec3;
 
 /// A triangle, seen from both sides.
@@ -29,6 +36,14 @@ pub struct Barycentric<T> {
     pub v2: T,
     /// Weight of the third vertex, in 0…1.
     pub v3: T,
+}
+
+impl<T: Scalar> Barycentric<T> {
+    /// The first vertex, or nowhere on what is no triangle.
+    pub(crate) const ZERO: Self = Self {
+        v2: T::ZERO,
+        v3: T::ZERO,
+    };
 }
 
 impl<T: Scalar> Triangle<T> {
@@ -117,10 +132,6 @@ impl<T: Scalar> Triangle<T> {
         self.offset
     }
 
-    pub(crate) fn set_material(&mut self, material: u32) {
-        self.surface.material = material;
-    }
-
     /// Material and place in the file.
     #[inline(always)]
     pub const fn surface(&self) -> Surface {
@@ -136,31 +147,27 @@ impl<T: Scalar> Triangle<T> {
             .is_some_and(|sighting| sighting.is_clear_miss())
     }
 
-    /// Whether the ray's line may come close enough to the triangle for the exact test to hit.
-    ///
-    /// Never wrong in the other direction. With `R` the ball's radius, `b` the distance along the ray to
-    /// the ball's centre and `u` the rounding unit, the distance `l` computed here and the edges of the
-    /// exact test are each off by less than `s = 8u(|b| + R)` together, which changes `l²` by
-    /// `2sR = 16u(|b|R + R²) ≤ 64u(b² + R²)`: the first term is added here, the second when the ball is
-    /// made.
+    /// Whether the ray's line may come close enough to the triangle for the exact test to hit; never wrong in the other
+    /// direction ([`reach`]).
     #[inline(always)]
     fn may_meet(&self, ray: &Ray<T>) -> bool {
         if T::EMULATED && self.clearly_misses(ray) {
             return false;
         }
-        let f = self.ball_center - ray.origin;
-        let b = f.dot(ray.direction);
-        let l = f - ray.direction * b;
-        l.dot(l).is_up_to(
-            self.ball_radius_squared
-                .plus(ball_slack::<T>().times(b.times(b))),
-        )
+        let (b, across) = closest_approach(
+            self.ball_center.real(),
+            ray.origin.real(),
+            ray.direction.real(),
+        );
+        across
+            .0
+            .is_up_to(reach(Real(self.ball_radius_squared), b).0)
     }
 
     /// Distance and place of the crossing within `0 < t ≤ t_max`.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray<T>, t_max: T) -> Option<(T, Barycentric<T>)> {
-        if !self.may_meet(ray) || ray.leaves.object() == self.surface.number {
+        if !self.may_meet(ray) {
             return None;
         }
         let (o, d) = (ray.origin, ray.direction);
@@ -168,11 +175,7 @@ impl<T: Scalar> Triangle<T> {
             .filter(|(t, _)| t.is_up_to(t_max))
     }
 
-    /// Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013: the vertices
-    /// are sheared so that the ray is an axis; the signs of the three edge functions then agree between
-    /// triangles that share an edge, so that no ray passes between them. Where an edge function rounds
-    /// to 0 its sign is computed again, exactly, with two-products (the paper uses double precision,
-    /// which a microcontroller would have to emulate).
+    /// The watertight test of [`formula::triangle`](crate::formula::triangle).
     // Numbers are passed in registers; a vector is passed by a reference, which would keep the tracer's rays in
     // memory.
     #[inline]
@@ -189,40 +192,24 @@ impl<T: Scalar> Triangle<T> {
         let direction = Vec3::new(direction_x, direction_y, direction_z);
         // Turn the axes so that z is the ray's largest component; the winding does not matter here.
         let turn = Turn::largest_to_z(direction);
-        let d = turn.apply(direction);
-        let scale = T::ONE / d.z;
-        let (shear_x, shear_y) = (d.x / d.z, d.y / d.z);
-        let shear = |vertex: Vec3<T>| {
-            let v = turn.apply(vertex - origin);
-            Vec3::new(
-                v.x.minus(shear_x.times(v.z)),
-                v.y.minus(shear_y.times(v.z)),
-                scale.times(v.z),
-            )
-        };
+        let shear = Shear::along(turn.apply(direction).real());
+        let sheared = |vertex: Vec3<T>| shear.apply(turn.apply(vertex - origin).real());
         let [v1, v2, v3] = self.vertices;
-        let (a, b, c) = (shear(v1), shear(v2), shear(v3));
-        let (u, v, w) = (edge(c, b), edge(a, c), edge(b, a));
+        let (a, b, c) = (sheared(v1), sheared(v2), sheared(v3));
+        let (u, v, w) = (signed_edge(c, b), signed_edge(a, c), signed_edge(b, a));
         // Inside: no two edge functions of opposite sign.
         let inside =
-            (u.is_zero_or_positive() && v.is_zero_or_positive() && w.is_zero_or_positive())
-                || (u.is_zero_or_negative() && v.is_zero_or_negative() && w.is_zero_or_negative());
-        let determinant = u.plus(v).plus(w);
-        if !inside || determinant.is_zero() {
+            (u.0.is_zero_or_positive() && v.0.is_zero_or_positive() && w.0.is_zero_or_positive())
+                || (u.0.is_zero_or_negative()
+                    && v.0.is_zero_or_negative()
+                    && w.0.is_zero_or_negative());
+        let determinant = u + v + w;
+        if !inside || determinant.0.is_zero() {
             return None;
         }
-        let inverse = T::ONE / determinant;
-        let t = u
-            .times(a.z)
-            .plus(v.times(b.z))
-            .plus(w.times(c.z))
-            .times(inverse);
-        if t.is_positive() {
-            let place = Barycentric {
-                v2: v * inverse,
-                v3: w * inverse,
-            };
-            Some((t, place))
+        let (t, [v2, v3]) = interpolate([u, v, w], determinant, [a, b, c]);
+        if t.0.is_positive() {
+            Some((t.0, Barycentric { v2: v2.0, v3: v3.0 }))
         } else {
             None
         }
@@ -234,17 +221,92 @@ impl<T: Scalar> Triangle<T> {
         matches!(self.intersect(ray, t_max), Some((t, _)) if t < t_max)
     }
 
-    /// The point at a place on the triangle: interpolated between the vertices, it lies as close to the
-    /// triangle as its own coordinates allow, however far the ray has come.
+    /// The point at a place on the triangle.
     #[inline(always)]
     pub fn surface_point(&self, place: Barycentric<T>) -> SurfacePoint<T> {
         let [v1, v2, v3] = self.vertices;
-        let weight = T::ONE - place.v2 - place.v3;
+        let vertices = [v1.real(), v2.real(), v3.real()];
         SurfacePoint {
-            point: v1 * weight + v2 * place.v2 + v3 * place.v3,
+            point: point(vertices, [Real(place.v2), Real(place.v3)]).plain(),
             normal: self.normal,
             offset: self.offset,
         }
+    }
+}
+
+impl<T: Scalar> Primitive<T> for Triangle<T> {
+    const KIND: Kind = Kind::Triangle;
+    const STAGE: Stages = Stages::TRIANGLES;
+    const SEVERAL: Stages = Stages::SEVERAL_TRIANGLES;
+    const IS_FLAT: bool = true;
+    const HAS_PLACE: bool = true;
+
+    #[inline(always)]
+    fn all<'a>(geometry: &Geometry<'a, T>) -> &'a [Self] {
+        geometry.triangles
+    }
+
+    #[inline(always)]
+    fn object(&self) -> Object<'_, T> {
+        Object::Triangle(self)
+    }
+
+    fn shape(&self) -> Shape<T> {
+        Shape::Triangle(self.vertices)
+    }
+
+    #[inline(always)]
+    fn surface(&self) -> Surface {
+        self.surface
+    }
+
+    fn set_material(&mut self, material: u32) {
+        self.surface.material = material;
+    }
+
+    /// `None` also of a triangle so large that the square of the radius is no number.
+    fn bounding_sphere(&self) -> Option<BoundingSphere<T>> {
+        let square = self.ball_radius_squared;
+        (square < T::MAX).then(|| BoundingSphere {
+            center: self.ball_center,
+            radius: square.sqrt(),
+        })
+    }
+
+    fn bounding_box(&self) -> Option<[Vec3<T>; 2]> {
+        let [v1, v2, v3] = self.vertices;
+        let lowest = v1.min_by_component(v2).min_by_component(v3);
+        let highest = v1.max_by_component(v2).max_by_component(v3);
+        Some([lowest, highest])
+    }
+
+    #[inline(always)]
+    fn hit(&self, ray: &Ray<T>, t_max: T) -> Option<(T, Barycentric<T>)> {
+        self.intersect(ray, t_max)
+    }
+
+    #[inline(always)]
+    fn occludes(&self, ray: &Ray<T>, t_max: T) -> bool {
+        self.occludes(ray, t_max)
+    }
+
+    #[inline(always)]
+    fn point(&self, _: &Ray<T>, _: T, place: Barycentric<T>) -> SurfacePoint<T> {
+        self.surface_point(place)
+    }
+
+    #[cfg(feature = "bake")]
+    fn parts(&self) -> (&'static str, [Option<super::Part<T>>; 6]) {
+        use super::Part::{Number, Vector, Vectors};
+        let parts = [
+            Some(Vectors(self.vertices)),
+            Some(Vector(self.normal)),
+            Some(Vector(self.ball_center)),
+            Some(Number(self.ball_radius_squared)),
+            Some(Number(self.offset)),
+            None,
+        ];
+        ("Triangle", parts)
     }
 }
 
@@ -279,47 +341,34 @@ impl Turn {
     }
 }
 
-/// The edge function `p × q` in the plane across the ray, with the right sign: the difference of two
-/// rounded products has it unless it is 0, because rounding is monotonic.
+/// The edge function with the right sign.
 #[inline(always)]
-fn edge<T: Scalar>(p: Vec3<T>, q: Vec3<T>) -> T {
-    let difference = p.x.times(q.y).minus(p.y.times(q.x));
-    if difference.is_zero() {
-        exact_edge(p, q)
+fn signed_edge<T: Scalar>(p: Vec3<Real<T>>, q: Vec3<Real<T>>) -> Real<T> {
+    // Hardly ever called, so that it is not inlined. Numbers are passed in registers. Where floats are emulated the compiler's
+    // operators are smaller than this crate's, and so is one error less inlined.
+    #[cold]
+    #[inline(never)]
+    fn exact<T: Scalar>(px: T, qy: T, py: T, qx: T) -> T {
+        if T::EMULATED {
+            error(px, qy) - error(py, qx)
+        } else {
+            product_error(px, qy) - product_error(py, qx)
+        }
+    }
+    #[inline(never)]
+    fn error<T: Scalar>(a: T, b: T) -> T {
+        product_error(a, b)
+    }
+    let edge = edge(p, q);
+    if edge.0.is_zero() {
+        Real(exact(p.x.0, q.y.0, p.y.0, q.x.0))
     } else {
-        difference
+        edge
     }
 }
 
-/// `p.x·q.y − p.y·q.x` where the rounded products are equal: what rounding took from them remains.
-#[cold]
-#[inline(never)]
-fn exact_edge<T: Scalar>(p: Vec3<T>, q: Vec3<T>) -> T {
-    product_error(p.x, q.y) - product_error(p.y, q.x)
-}
-
-/// `a·b − round(a·b)`, exactly, barring underflow. Dekker, "A floating-point technique for extending
-/// the available precision", Numerische Mathematik 18, 1971.
-fn product_error<T: Scalar>(a: T, b: T) -> T {
-    let product = a * b;
-    let split = |x: T| {
-        let scaled = T::SPLITTER * x;
-        let high = scaled - (scaled - x);
-        (high, x - high)
-    };
-    let (a_high, a_low) = split(a);
-    let (b_high, b_low) = split(b);
-    ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
-}
-
-/// `64u`, the slack of [`Triangle::may_meet`].
-#[inline(always)]
-fn ball_slack<T: Scalar>() -> T {
-    T::EPSILON * T::from_i32(64)
-}
-
 /// A small ball that holds three points: around the middle of the longest edge or around the
-/// centroid, whichever is smaller. Its square radius is rounded up as [`Triangle::may_meet`] needs.
+/// centroid, whichever is smaller. Its square radius is rounded up as [`reach`] needs.
 fn bounding_ball<T: Scalar>(vertices: [Vec3<T>; 3]) -> (Vec3<T>, T) {
     let [v1, v2, v3] = vertices;
     let squared = |v: Vec3<T>| v.dot(v);
@@ -337,7 +386,7 @@ fn bounding_ball<T: Scalar>(vertices: [Vec3<T>; 3]) -> (Vec3<T>, T) {
         let radius_squared = squared(v1 - center)
             .max(squared(v2 - center))
             .max(squared(v3 - center));
-        let rounded_up = radius_squared + radius_squared * ball_slack();
+        let rounded_up = radius_squared + radius_squared * slack(radius_squared);
         if rounded_up < best.1 {
             best = (center, rounded_up);
         }

@@ -8,17 +8,17 @@
 //! in the order of the depth-first walk, a ray whose throughput still fits into it is not cast and uses
 //! it up. The pixel then loses less than its allowance, whatever the scene and the depth.
 
-use super::{ALL_AND_TREE, Tracer, stage};
+use super::{ALL_AND_BVH, Tracer, stage};
 use crate::scalar::Scalar;
-use crate::scene::Needs;
+use crate::stages::Stages;
 
 /// Every stage and the cut-off.
-const ALL_AND_CUTOFF: u32 = Needs::ALL.union(Needs::CUTOFF).bits();
+const ALL_AND_CUTOFF: u64 = Stages::ALL.union(Stages::CUTOFF).bits();
 
-/// The same and the tree.
-const TREE_AND_CUTOFF: u32 = Needs::from_bits(ALL_AND_TREE).union(Needs::CUTOFF).bits();
+/// The same and the hierarchy.
+const BVH_AND_CUTOFF: u64 = Stages::from_bits(ALL_AND_BVH).union(Stages::CUTOFF).bits();
 
-impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Needs::ALL.bits() }, STACK> {
+impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Stages::ALL.bits() }, STACK> {
     /// The same tracer that does not cast the secondary rays that hardly show: no channel of a pixel
     /// becomes darker by `cutoff` or more, and none brighter, for any scene and depth (up to rounding, of
     /// about 1e-6). 0 casts them all, and so does what is no number.
@@ -31,12 +31,12 @@ impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Needs::ALL.bits() }, STA
     ///
     /// ```
     /// use embedded_graphics::pixelcolor::Rgb565;
-    /// use scanray::{DisplayColor, Needs, ScenePools, Tracer};
+    /// use scanray::{DisplayColor, Stages, ScenePools, Tracer};
     ///
     /// let pools: ScenePools = ScenePools::new();
     /// let tracer = Tracer::new(pools.as_scene()).with_cutoff(Rgb565::LEVEL);
     /// assert_eq!(tracer.cutoff(), 1.0 / 64.0);
-    /// assert!(tracer.stages().contains(Needs::CUTOFF));
+    /// assert!(tracer.stages().contains(Stages::CUTOFF));
     /// ```
     pub const fn with_cutoff(self, cutoff: T) -> Tracer<'a, T, ALL_AND_CUTOFF, STACK> {
         Tracer {
@@ -48,9 +48,9 @@ impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Needs::ALL.bits() }, STA
     }
 }
 
-impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, ALL_AND_TREE, STACK> {
-    /// The cut-off of a tracer without the tree, for one with it.
-    pub const fn with_cutoff(self, cutoff: T) -> Tracer<'a, T, TREE_AND_CUTOFF, STACK> {
+impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, ALL_AND_BVH, STACK> {
+    /// The cut-off of a tracer without the hierarchy, for one with it.
+    pub const fn with_cutoff(self, cutoff: T) -> Tracer<'a, T, BVH_AND_CUTOFF, STACK> {
         Tracer {
             scene: self.scene,
             resolution: self.resolution,
@@ -60,13 +60,13 @@ impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, ALL_AND_TREE, STACK> {
     }
 }
 
-impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, STACK> {
+impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, STACK> {
     /// The same tracer with another cut-off, for one whose stages have it: `tracer_for!(SCENE, cutoff = …)`,
     /// [`Tracer::with_cutoff`] and what they are specialised to. Others are an error of the compiler.
     pub const fn with_compiled_cutoff(mut self, cutoff: T) -> Self {
         const {
             assert!(
-                stage(NEEDS, Needs::CUTOFF),
+                stage(NEEDS, Stages::CUTOFF),
                 "the stage `cutoff` is left out: take Tracer::with_cutoff or tracer_for!(SCENE, cutoff = …)"
             )
         };
@@ -84,7 +84,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
     /// allowance.
     #[inline(always)]
     pub(super) fn shows(&self, throughput: T, coefficient: T, allowance: &mut T) -> bool {
-        if !stage(NEEDS, Needs::CUTOFF) || coefficient == T::ZERO {
+        if !stage(NEEDS, Stages::CUTOFF) || coefficient == T::ZERO {
             return true;
         }
         let throughput = throughput * coefficient;

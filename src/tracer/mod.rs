@@ -1,38 +1,41 @@
 //! The tracer: from a ray to a linear colour.
 
+mod bvh;
 mod cutoff;
 mod observer;
 mod shade;
 mod stack;
-mod tree;
 
 pub use observer::{LightAtHit, Meeting, Observer, RayCount, RayKind, TestKind, WorkCount};
 
 use core::fmt;
-use core::ops::Range;
 
+use crate::accel::{Candidates, Cell, Members, ObjectSet, visible_in_row};
 use crate::background::Background;
 use crate::camera::{Resolution, Subpixel};
 use crate::color::Color;
 use crate::material::{Interface, Material};
 use crate::ray::{Ray, Side};
 use crate::scalar::Scalar;
-use crate::scene::{Members, Needs, Object, ObjectSet, Reach, Scene, Zone};
-use crate::shape::{Barycentric, Plane, Sphere, Surface, Triangle};
+use crate::scene::Scene;
+use crate::shape::{
+    Barycentric, Kind, Object, Plane, Primitive, Sphere, Surface, SurfacePoint, Triangle,
+    for_each_shape,
+};
+use crate::stages::Stages;
 use crate::vec3::Vec3;
-use crate::visibility::visible_in_row;
 use stack::{Frame, Refracted, Stack, Throughputs, Waiting};
 
 /// How many secondary rays may follow one another unless the tracer is told otherwise.
 pub const DEFAULT_MAX_DEPTH: usize = 5;
 
 /// Every stage of a small scene, and the tree.
-const ALL_AND_TREE: u32 = Needs::ALL.union(Needs::TREE).bits();
+const ALL_AND_BVH: u64 = Stages::ALL.union(Stages::BVH).bits();
 
 /// Whether a stage is compiled.
 #[inline(always)]
-const fn stage(needs: u32, stage: Needs) -> bool {
-    Needs::from_bits(needs).contains(stage)
+const fn stage(needs: u64, stage: Stages) -> bool {
+    Stages::from_bits(needs).contains(stage)
 }
 
 /// Traces rays through a scene.
@@ -40,7 +43,7 @@ const fn stage(needs: u32, stage: Needs) -> bool {
 /// `NEEDS` are the stages that are compiled, `STACK` is the number of frames that stand for the
 /// recursion. Neither is written by hand: [`Tracer::new`] compiles all stages that a small scene may need for
 /// [`DEFAULT_MAX_DEPTH`], [`tracer_for!`](crate::tracer_for) those that a `static` scene needs, and
-/// methods change the rest. For pools with room for a tree there is [`Tracer::with_tree`].
+/// methods change the rest. For pools with room for a tree there is [`Tracer::with_bvh`].
 ///
 /// ```
 /// use scanray::{ScenePools, Tracer};
@@ -57,13 +60,13 @@ const fn stage(needs: u32, stage: Needs) -> bool {
 pub struct Tracer<
     'a,
     T = f32,
-    const NEEDS: u32 = { Needs::ALL.bits() },
+    const NEEDS: u64 = { Stages::ALL.bits() },
     const STACK: usize = DEFAULT_MAX_DEPTH,
 > {
     scene: Scene<'a, T>,
     resolution: Resolution,
     max_depth: usize,
-    /// Of no effect without [`Needs::CUTOFF`].
+    /// Of no effect without [`Stages::CUTOFF`].
     cutoff: T,
 }
 
@@ -90,7 +93,7 @@ impl core::error::Error for DepthError {}
 
 /// A scene needs stages that the tracer was compiled without.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct MissingStages(pub Needs);
+pub struct MissingStages(pub Stages);
 
 impl fmt::Display for MissingStages {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -110,9 +113,9 @@ pub(crate) struct Hit<'a, T> {
     /// The side the ray comes from.
     facing: Side,
     /// What rays can meet that leave that side.
-    reach: &'a Reach,
-    /// The place, if it lies on a plane in a part that is divided.
-    zone: Option<Zone<'a>>,
+    candidates: &'a Candidates,
+    /// The cell of the plane's grid, if it lies in one.
+    cell: Option<Cell<'a>>,
     material: &'a Material<T>,
     /// Unit normal on the side the ray comes from.
     normal: Vec3<T>,
@@ -152,6 +155,8 @@ pub struct Nearest<'a, T = f32> {
     pub t: T,
     /// What is there.
     pub object: Object<'a, T>,
+    /// The object's index among all objects.
+    pub index: usize,
 }
 
 /// The closest meeting so far.
@@ -169,22 +174,16 @@ impl<T: Scalar> Closest<T> {
     const NONE: Self = Self {
         t: T::MAX,
         index: usize::MAX,
-        place: Barycentric {
-            v2: T::ZERO,
-            v3: T::ZERO,
-        },
+        place: Barycentric::ZERO,
     };
 
-    /// Takes a meeting if it comes before the closest so far, and tells whether it did: of
-    /// two at exactly the same distance the first in the file wins, which `is_first` tells.
+    /// Takes a hit if it comes before the closest so far: of two at exactly the same distance that of the smaller index,
+    /// whatever the order in which they are offered.
     #[inline(always)]
-    fn offer(&mut self, t: T, index: usize, is_first: impl FnOnce(usize) -> bool) -> bool {
-        let is_closer = t.is_before(self.t) || (t == self.t && is_first(self.index));
-        if is_closer {
-            self.t = t;
-            self.index = index;
+    fn offer(&mut self, t: T, index: usize, place: Barycentric<T>) {
+        if t.is_before(self.t) || (t == self.t && index < self.index) {
+            *self = Self { t, index, place };
         }
-        is_closer
     }
 }
 
@@ -195,13 +194,13 @@ impl<'a, T: Scalar> Tracer<'a, T> {
     }
 }
 
-impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Needs::ALL.bits() }, STACK> {
+impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Stages::ALL.bits() }, STACK> {
     /// The same tracer, to draw large scenes the faster way: by the tree that the scene has if its pools
     /// have room for one ([`ScenePools`](crate::ScenePools)). Without this every ray is tested against
     /// every object of such a scene, with the same bits; other scenes are drawn as before.
     ///
     /// A [cut-off](Tracer::with_cutoff) is asked for after the tree.
-    pub const fn with_tree(self) -> Tracer<'a, T, ALL_AND_TREE, STACK> {
+    pub const fn with_bvh(self) -> Tracer<'a, T, ALL_AND_BVH, STACK> {
         Tracer {
             scene: self.scene,
             resolution: self.resolution,
@@ -211,7 +210,7 @@ impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Needs::ALL.bits() }, STA
     }
 }
 
-impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, STACK> {
+impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, STACK> {
     /// Bytes of each of the `STACK` frames, with room for the refracted ray of each, which are on the call
     /// stack while a ray is traced.
     pub const FRAME_BYTES: usize = size_of::<Frame<T>>() + size_of::<Refracted<T>>();
@@ -285,8 +284,8 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
     }
 
     /// The stages that are compiled.
-    pub const fn stages(&self) -> Needs {
-        Needs::from_bits(NEEDS)
+    pub const fn stages(&self) -> Stages {
+        Stages::from_bits(NEEDS)
     }
 
     /// No pixel casts more rays than this: a full binary tree of secondary rays, and from each hit one
@@ -298,75 +297,19 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
 
     /// The object a ray meets first; of several at exactly the same distance the first in the file.
     pub fn nearest(&self, ray: &Ray<T>) -> Option<Nearest<'a, T>> {
-        let closest = self.closest(ray, ObjectSet::ALL, &mut ());
+        let all = self.without_flat(ray.leaves.object() as usize, ObjectSet::ALL);
+        let closest = self.closest(ray, all, &mut ());
         Some(Nearest {
             t: closest.t,
             object: self.scene.object(closest.index)?,
+            index: closest.index,
         })
     }
 
     /// The members of a set, by their indices.
     #[inline(always)]
     fn members(&self, set: ObjectSet) -> Members {
-        set.members_among(stage(NEEDS, Needs::MANY_OBJECTS))
-    }
-
-    #[inline(always)]
-    fn sphere(&self, index: usize) -> Option<&'a Sphere<T>> {
-        if stage(NEEDS, Needs::SPHERES) {
-            self.scene.spheres.get(index)
-        } else {
-            None
-        }
-    }
-
-    #[inline(always)]
-    fn plane(&self, index: usize) -> Option<&'a Plane<T>> {
-        if stage(NEEDS, Needs::PLANES) {
-            let index = index.wrapping_sub(self.scene.spheres.len());
-            self.scene.planes.get(index)
-        } else {
-            None
-        }
-    }
-
-    #[inline(always)]
-    fn triangle(&self, index: usize) -> Option<&'a Triangle<T>> {
-        if stage(NEEDS, Needs::TRIANGLES) {
-            let index = index.wrapping_sub(self.scene.spheres.len() + self.scene.planes.len());
-            self.scene.triangles.get(index)
-        } else {
-            None
-        }
-    }
-
-    /// Whether an object comes before that of an index in the file; it does if there is none.
-    #[inline(always)]
-    fn is_before(&self, surface: Surface) -> impl Fn(usize) -> bool {
-        move |index| {
-            let other = if let Some(sphere) = self.sphere(index) {
-                sphere.surface()
-            } else if let Some(plane) = self.plane(index) {
-                plane.surface()
-            } else if let Some(triangle) = self.triangle(index) {
-                triangle.surface()
-            } else {
-                return true;
-            };
-            surface.number < other.number
-        }
-    }
-
-    /// The indices of the spheres, the planes and the triangles.
-    #[inline(always)]
-    fn ranges(&self) -> [Range<usize>; 3] {
-        let planes = self.scene.spheres.len();
-        let triangles = planes + self.scene.planes.len();
-        [
-            0..planes,
-            planes..triangles,
-            triangles..triangles + self.scene.triangles.len(),
-        ]
+        set.members_among(stage(NEEDS, Stages::MANY_OBJECTS))
     }
 
     #[inline(always)]
@@ -377,59 +320,63 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         observer: &mut impl Observer<T>,
     ) -> Closest<T> {
         let mut closest = Closest::NONE;
-        if self.has_tree() {
-            self.closest_in_tree(ray, &mut closest, observer);
+        if self.has_bvh() {
+            self.closest_in_bvh(ray, &mut closest, observer);
             return closest;
         }
-        let mut members = self.members(candidates);
-        let [spheres, planes, triangles] = self.ranges();
+        let mut members = self.members(self.without_left(ray, candidates));
+        let mut first = 0;
+        macro_rules! closest_of_each {
+            ([$($shape:ident)*]) => {
+                $(first = self.closest_of::<$shape<T>>(first, &mut members, ray, &mut closest, observer);)*
+            };
+        }
+        for_each_shape!(closest_of_each);
+        let _ = first;
+        closest
+    }
+
+    /// Makes the closest of the members of one shape, whose indices begin at `first`, the closest; gives the index behind
+    /// them.
+    #[inline(always)]
+    fn closest_of<P: Primitive<T>>(
+        &self,
+        first: usize,
+        members: &mut Members,
+        ray: &Ray<T>,
+        closest: &mut Closest<T>,
+        observer: &mut impl Observer<T>,
+    ) -> usize {
+        if !stage(NEEDS, P::STAGE) {
+            return first;
+        }
+        let all = P::all(&self.scene.geometry);
         members.walk(
-            spheres,
-            stage(NEEDS, Needs::SEVERAL_SPHERES),
-            |index| self.sphere(index),
-            |index, sphere| {
-                observer.test_object(Object::Sphere(sphere), ray, closest.t);
-                // Spheres come first, in the order of the file: of two at one distance the first stays.
-                if let Some(t) = sphere.meet(ray)
+            first..first + all.len(),
+            stage(NEEDS, P::SEVERAL),
+            |index| all.get(index.wrapping_sub(first)),
+            |index, object| {
+                observer.test_object(object.object(), ray, closest.t);
+                // Indices ascend: of two at one distance the first stays.
+                if let Some((t, place)) = object.hit(ray, closest.t)
                     && t.is_before(closest.t)
+                    && !self.is_left::<P>(ray, index)
                 {
                     (closest.t, closest.index) = (t, index);
+                    if P::HAS_PLACE {
+                        closest.place = place;
+                    }
                 }
                 false
             },
         );
-        members.walk(
-            planes,
-            stage(NEEDS, Needs::SEVERAL_PLANES),
-            |index| self.plane(index),
-            |index, plane| {
-                observer.test_object(Object::Plane(plane), ray, closest.t);
-                if let Some(t) = plane.meet(ray) {
-                    closest.offer(t, index, self.is_before(plane.surface()));
-                }
-                false
-            },
-        );
-        members.walk(
-            triangles,
-            stage(NEEDS, Needs::SEVERAL_TRIANGLES),
-            |index| self.triangle(index),
-            |index, triangle| {
-                observer.test_object(Object::Triangle(triangle), ray, closest.t);
-                if let Some((t, place)) = triangle.intersect(ray, closest.t)
-                    && closest.offer(t, index, self.is_before(triangle.surface()))
-                {
-                    closest.place = place;
-                }
-                false
-            },
-        );
-        closest
+        first + all.len()
     }
 
     /// Whether an object that casts shadows lies on the ray within `0 < t < t_max`.
     pub fn occluded(&self, ray: &Ray<T>, t_max: T) -> bool {
-        self.occluded_observed(ray, t_max, ObjectSet::ALL, &mut ())
+        let all = self.without_flat(ray.leaves.object() as usize, ObjectSet::ALL);
+        self.occluded_observed(ray, t_max, all, &mut ())
     }
 
     #[inline(always)]
@@ -440,57 +387,142 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         candidates: ObjectSet,
         observer: &mut impl Observer<T>,
     ) -> bool {
-        let casts_shadow =
-            |surface: Surface| self.material(surface).is_none_or(Material::casts_shadow);
-        if self.has_tree() {
-            return self.occluded_in_tree(ray, t_max, casts_shadow, observer);
+        if self.has_bvh() {
+            return self.occluded_in_bvh(ray, t_max, observer);
         }
-        let mut members = self.members(candidates);
-        let [spheres, planes, triangles] = self.ranges();
+        let mut members = self.members(self.without_left(ray, candidates));
+        let mut first = 0;
+        macro_rules! occluded_by_each {
+            ([$($shape:ident)*]) => {
+                $(
+                    if self.occluded_by::<$shape<T>>(first, &mut members, ray, t_max, observer) {
+                        return true;
+                    }
+                    first += $shape::all(&self.scene.geometry).len();
+                )*
+            };
+        }
+        for_each_shape!(occluded_by_each);
+        let _ = first;
+        false
+    }
+
+    /// Whether a member of one shape, whose indices begin at `first`, casts a shadow.
+    #[inline(always)]
+    fn occluded_by<P: Primitive<T>>(
+        &self,
+        first: usize,
+        members: &mut Members,
+        ray: &Ray<T>,
+        t_max: T,
+        observer: &mut impl Observer<T>,
+    ) -> bool {
+        if !stage(NEEDS, P::STAGE) {
+            return false;
+        }
+        let all = P::all(&self.scene.geometry);
         members.walk(
-            spheres,
-            stage(NEEDS, Needs::SEVERAL_SPHERES),
-            |index| self.sphere(index),
-            |_, sphere| {
-                observer.test_object(Object::Sphere(sphere), ray, t_max);
-                sphere.occludes(ray, t_max) && casts_shadow(sphere.surface())
-            },
-        ) || members.walk(
-            planes,
-            stage(NEEDS, Needs::SEVERAL_PLANES),
-            |index| self.plane(index),
-            |_, plane| {
-                observer.test_object(Object::Plane(plane), ray, t_max);
-                plane.occludes(ray, t_max) && casts_shadow(plane.surface())
-            },
-        ) || members.walk(
-            triangles,
-            stage(NEEDS, Needs::SEVERAL_TRIANGLES),
-            |index| self.triangle(index),
-            |_, triangle| {
-                observer.test_object(Object::Triangle(triangle), ray, t_max);
-                triangle.occludes(ray, t_max) && casts_shadow(triangle.surface())
+            first..first + all.len(),
+            stage(NEEDS, P::SEVERAL),
+            |index| all.get(index.wrapping_sub(first)),
+            |index, object| {
+                observer.test_object(object.object(), ray, t_max);
+                self.is_occluded_by(index, object, ray, t_max)
             },
         )
     }
 
-    /// Where a place on a plane lies.
+    /// Whether an object of a flat shape is the one that the ray leaves, which it cannot hit again whatever rounding says.
+    /// Those that are told apart are not among the candidates.
     #[inline(always)]
-    fn zone(&self, index: usize, place: Vec3<T>) -> Option<Zone<'a>> {
-        let index = index.wrapping_sub(self.scene.spheres.len());
-        self.scene.zones.get(index)?.zone(place)
+    pub(super) fn is_left<P: Primitive<T>>(&self, ray: &Ray<T>, index: usize) -> bool {
+        P::IS_FLAT && stage(NEEDS, Stages::MANY_OBJECTS) && ray.leaves.object() as usize == index
+    }
+
+    /// Candidates without the object that the ray leaves, if it is flat.
+    #[inline(always)]
+    fn without_left(&self, ray: &Ray<T>, candidates: ObjectSet) -> ObjectSet {
+        // What is known of its sides leaves it out already.
+        if self.scene.accel.sides.is_empty() {
+            self.without_flat(ray.leaves.object() as usize, candidates)
+        } else {
+            candidates
+        }
+    }
+
+    /// Candidates without an object that is told apart, if it is flat.
+    // Scenes that were loaded or baked do not come here.
+    #[cold]
+    #[inline(never)]
+    fn without_flat(&self, index: usize, candidates: ObjectSet) -> ObjectSet {
+        let is_flat = self.scene.geometry.is_flat(index);
+        if is_flat && index < ObjectSet::TOLD_APART {
+            candidates.without(ObjectSet::NONE.with(index))
+        } else {
+            candidates
+        }
+    }
+
+    /// Whether an object casts a shadow on a ray.
+    #[inline(always)]
+    fn is_occluded_by<P: Primitive<T>>(
+        &self,
+        index: usize,
+        object: &P,
+        ray: &Ray<T>,
+        t_max: T,
+    ) -> bool {
+        object.occludes(ray, t_max)
+            && !self.is_left::<P>(ray, index)
+            && self
+                .material(object.surface())
+                .is_none_or(Material::casts_shadow)
+    }
+
+    /// The point of a hit, its material, and the cell of a plane grid that it lies in.
+    #[inline(always)]
+    fn hit_point(
+        &self,
+        ray: &Ray<T>,
+        closest: &Closest<T>,
+    ) -> Option<(SurfacePoint<T>, Surface, Option<Cell<'a>>)> {
+        let mut index = closest.index;
+        macro_rules! among {
+            ([$($shape:ident)*]) => {
+                $(if stage(NEEDS, <$shape<T> as Primitive<T>>::STAGE) {
+                    let all = <$shape<T>>::all(&self.scene.geometry);
+                    if let Some(object) = all.get(index) {
+                        let point = object.point(ray, closest.t, closest.place);
+                        let cell = match <$shape<T> as Primitive<T>>::KIND {
+                            Kind::Plane => self
+                                .scene
+                                .accel
+                                .grids
+                                .get(index)
+                                .and_then(|grid| grid.cell(point.point)),
+                            _ => None,
+                        };
+                        return Some((point, Primitive::surface(object), cell));
+                    }
+                    index = index.wrapping_sub(all.len());
+                })*
+            };
+        }
+        for_each_shape!(among);
+        let _ = index;
+        None
     }
 
     /// What rays can meet that leave a side of an object.
     #[inline(always)]
-    fn reach(&self, side: Side) -> &'a Reach {
+    fn candidates(&self, side: Side) -> &'a Candidates {
         #[cold]
         #[inline(never)]
-        fn anything() -> &'static Reach {
-            &Reach::ALL
+        fn anything() -> &'static Candidates {
+            &Candidates::ALL
         }
-        match self.scene.sides.get(side.index()) {
-            Some(reach) => reach,
+        match self.scene.accel.sides.get(side.index()) {
+            Some(candidates) => candidates,
             None => anything(),
         }
     }
@@ -538,38 +570,38 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                     if stack.len() < self.max_depth {
                         let material = hit.material.description();
                         let mut shows = |weight| self.shows(throughput, weight, &mut allowance);
-                        if stage(NEEDS, Needs::REFLECTION) && shows(material.reflection) {
+                        if stage(NEEDS, Stages::REFLECTION) && shows(material.reflection) {
                             weight = material.reflection;
                         }
                         // The mirror ray is cast first, and the refracted one kept for later.
-                        if stage(NEEDS, Needs::REFRACTION)
+                        if stage(NEEDS, Stages::REFRACTION)
                             && material.refraction.is_positive()
                             && shows(material.refraction)
                             && let Some(refracted) = self.refracted(&ray, &hit)
                         {
                             // There is room for it and for the frame, because `max_depth ≤ STACK`.
                             refracts = waiting.push(refracted).is_ok();
-                            if stage(NEEDS, Needs::CUTOFF) {
+                            if stage(NEEDS, Stages::CUTOFF) {
                                 let _ = throughputs.push(throughput);
                             }
                         }
                     }
                     color = self.local_color(&ray, &hit, stack.len(), observer);
                     observer.local_color(color);
-                    if stage(NEEDS, Needs::REFLECTION) && weight.is_positive() {
+                    if stage(NEEDS, Stages::REFLECTION) && weight.is_positive() {
                         let _ = stack.push(Frame {
                             color,
                             weight: if refracts { -weight } else { weight },
                         });
                         kind = RayKind::Reflected;
                         let direction = ray.direction.reflect_at(hit.normal, hit.cosine);
-                        candidates = self.near(hit.reach, hit.zone, direction);
+                        candidates = self.near(hit.candidates, hit.cell, direction);
                         ray = Ray {
                             origin: hit.outside,
                             direction,
                             leaves: hit.facing,
                         };
-                        if stage(NEEDS, Needs::CUTOFF) {
+                        if stage(NEEDS, Stages::CUTOFF) {
                             throughput = throughput * weight;
                         }
                         continue;
@@ -580,13 +612,13 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             // Hand the colour up, to the first hit that has a ray left to cast.
             loop {
                 if is_sum {
-                    if stage(NEEDS, Needs::REFRACTION)
+                    if stage(NEEDS, Stages::REFRACTION)
                         && refracts
                         && let Some(refracted) = waiting.pop()
                     {
                         let weight = refracted.weight;
                         let _ = stack.push(Frame { color, weight });
-                        if stage(NEEDS, Needs::CUTOFF)
+                        if stage(NEEDS, Stages::CUTOFF)
                             && let Some(at_hit) = throughputs.pop()
                         {
                             throughput = at_hit * weight;
@@ -611,10 +643,15 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
 
     /// The objects that a secondary ray can meet first that leaves a side in a direction.
     #[inline(always)]
-    fn near(&self, reach: &Reach, zone: Option<Zone<'_>>, direction: Vec3<T>) -> ObjectSet {
-        let near = reach.near(direction);
-        match zone {
-            Some(zone) if stage(NEEDS, Needs::PLANES) => near.intersection(zone.ahead(direction)),
+    fn near(
+        &self,
+        candidates: &Candidates,
+        cell: Option<Cell<'_>>,
+        direction: Vec3<T>,
+    ) -> ObjectSet {
+        let near = candidates.near(direction);
+        match cell {
+            Some(cell) if stage(NEEDS, Stages::PLANES) => near.intersection(cell.ahead(direction)),
             _ => near,
         }
     }
@@ -628,17 +665,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         observer: &mut impl Observer<T>,
     ) -> Option<Hit<'a, T>> {
         let closest = self.closest(ray, candidates, observer);
-        let mut zone = None;
-        let (point, surface) = if let Some(sphere) = self.sphere(closest.index) {
-            (sphere.surface_point(ray, closest.t), sphere.surface())
-        } else if let Some(plane) = self.plane(closest.index) {
-            let point = plane.surface_point(ray, closest.t);
-            zone = self.zone(closest.index, point.point);
-            (point, plane.surface())
-        } else {
-            let triangle = self.triangle(closest.index)?;
-            (triangle.surface_point(closest.place), triangle.surface())
-        };
+        let (point, surface, cell) = self.hit_point(ray, &closest)?;
         let slope = ray.direction.component_along(point.normal);
         let entering = slope.is_zero_or_negative();
         let normal = if entering {
@@ -646,11 +673,11 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         } else {
             -point.normal
         };
-        let facing = Side::new(surface.number, entering);
+        let facing = Side::new(closest.index as u32, entering);
         let hit = Hit {
             facing,
-            reach: self.reach(facing),
-            zone,
+            candidates: self.candidates(facing),
+            cell,
             material: self.material(surface)?,
             normal,
             cosine: slope.abs(),
@@ -660,6 +687,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         };
         observer.meeting(&Meeting {
             side: hit.facing,
+            number: surface.number,
             t: closest.t,
             point: point.point,
             normal,
@@ -679,7 +707,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
                 direction,
                 leaves,
             },
-            candidates: self.near(self.reach(leaves), hit.zone, direction),
+            candidates: self.near(self.candidates(leaves), hit.cell, direction),
             weight: hit.material.description().refraction,
         })
     }
@@ -688,7 +716,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
     #[inline(always)]
     fn refracted_direction(&self, ray: &Ray<T>, hit: &Hit<'a, T>) -> Option<Vec3<T>> {
         // Index 1 passes straight through, to the bit.
-        if !stage(NEEDS, Needs::BENDING) || hit.material.description().index_of_refraction.is_one()
+        if !stage(NEEDS, Stages::BENDING) || hit.material.description().index_of_refraction.is_one()
         {
             return Some(ray.direction);
         }
@@ -703,7 +731,8 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
     #[inline(always)]
     fn background(&self, direction: Vec3<T>) -> Color<T> {
         let background = &self.scene.background;
-        if stage(NEEDS, Needs::SKY) && (!stage(NEEDS, Needs::PLAIN_BACKGROUND) || background.sky) {
+        if stage(NEEDS, Stages::SKY) && (!stage(NEEDS, Stages::PLAIN_BACKGROUND) || background.sky)
+        {
             Background::sky(direction)
         } else {
             background.color.clamp()
@@ -728,7 +757,12 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
     fn scanline_of(&self, row_height: T, half_width: T) -> Scanline<T> {
         Scanline {
             row_height,
-            visible: visible_in_row(&self.scene, row_height, half_width),
+            visible: visible_in_row(
+                &self.scene.geometry,
+                &self.scene.camera,
+                row_height,
+                half_width,
+            ),
         }
     }
 
@@ -782,21 +816,21 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
 
 macro_rules! specialize {
     ($scalar:ty) => {
-        impl<'a, const NEEDS: u32, const STACK: usize> Tracer<'a, $scalar, NEEDS, STACK> {
+        impl<'a, const NEEDS: u64, const STACK: usize> Tracer<'a, $scalar, NEEDS, STACK> {
             /// The same tracer with only the stages of `STAGES`, for a scene that is known on the device
             /// but whose needs are known before.
             ///
             /// # Errors
             ///
             /// [`MissingStages`] when the scene needs more.
-            pub const fn specialize<const STAGES: u32>(
+            pub const fn specialize<const STAGES: u64>(
                 self,
             ) -> Result<Tracer<'a, $scalar, STAGES, STACK>, MissingStages> {
                 let mut needs = self.scene.needs();
                 if self.cutoff > 0.0 {
-                    needs = needs.union(Needs::CUTOFF);
+                    needs = needs.union(Stages::CUTOFF);
                 }
-                let missing = needs.without(Needs::from_bits(STAGES));
+                let missing = needs.without(Stages::from_bits(STAGES));
                 if !missing.is_empty() {
                     return Err(MissingStages(missing));
                 }
@@ -824,16 +858,12 @@ specialize!(f64);
 ///
 /// ```
 /// # use scanray::*;
-/// static EMPTY: Scene<'static> = Scene {
-///     camera: Camera { position: Vec3::new(0.0, 0.0, 0.0) },
-///     resolution: Resolution { width: 4, height: 3 },
-///     ambient: 0.1,
-///     background: Background { color: Color::new(0.5, 0.5, 1.0), sky: true },
-///     lights: &[], spheres: &[], planes: &[], triangles: &[], materials: &[], sides: &[], zones: &[], tree: Tree::NONE,
-/// };
+/// static EMPTY: Scene<'static> = Scene::EMPTY
+///     .with_resolution(Resolution { width: 4, height: 3 })
+///     .with_background(Background { color: Color::new(0.5, 0.5, 1.0), sky: true });
 /// let tracer = tracer_for!(EMPTY);
-/// assert_eq!(tracer.stages(), Needs::SKY);
-/// let same = tracer_for!(EMPTY, stages = Needs::SKY);
+/// assert_eq!(tracer.stages(), Stages::SKY);
+/// let same = tracer_for!(EMPTY, stages = Stages::SKY);
 /// # assert_eq!(tracer.pixel(1, 1), same.pixel(1, 1));
 /// let faster = tracer_for!(EMPTY, cutoff = 1.0 / 256.0, stack = 8);
 /// # assert_eq!(tracer.pixel(1, 1), faster.pixel(1, 1));
@@ -845,14 +875,10 @@ specialize!(f64);
 ///
 /// ```compile_fail,E0080
 /// # use scanray::*;
-/// # static EMPTY: Scene<'static> = Scene {
-/// #     camera: Camera { position: Vec3::new(0.0, 0.0, 0.0) },
-/// #     resolution: Resolution { width: 4, height: 3 },
-/// #     ambient: 0.1,
-/// #     background: Background { color: Color::new(0.5, 0.5, 1.0), sky: true },
-/// #     lights: &[], spheres: &[], planes: &[], triangles: &[], materials: &[], sides: &[], zones: &[], tree: Tree::NONE,
-/// # };
-/// let tracer = tracer_for!(EMPTY, stages = Needs::SPHERES);
+/// # static EMPTY: Scene<'static> = Scene::EMPTY
+/// #     .with_resolution(Resolution { width: 4, height: 3 })
+/// #     .with_background(Background { color: Color::new(0.5, 0.5, 1.0), sky: true });
+/// let tracer = tracer_for!(EMPTY, stages = Stages::SPHERES);
 /// ```
 ///
 /// `tracer_for!(pools, in Pools)` is for a scene in pools whose type is `Pools`, with a stack or without: with room
@@ -865,11 +891,19 @@ specialize!(f64);
 /// # #[cfg(feature = "parser")]
 /// pools.parse(include_bytes!("../../scenes/default.txt"))?;
 /// let tracer = tracer_for!(pools, in Pools);
-/// assert!(!tracer.stages().contains(Needs::MANY_OBJECTS));
+/// assert!(!tracer.stages().contains(Stages::MANY_OBJECTS));
 /// # assert_eq!(tracer.pixel(400, 300), Tracer::new(pools.as_scene()).pixel(400, 300));
 /// let deeper = tracer_for!(pools, in Pools, stack = 8);
 /// # assert_eq!(deeper.with_max_depth(8)?.max_depth(), 8);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// Pools of another type do not compile:
+///
+/// ```compile_fail,E0308
+/// # use scanray::*;
+/// let pools = ScenePools::<f32, 12, 4, 15>::new();
+/// let tracer = tracer_for!(pools, in ScenePools<f32, 12, 4, 0>);
 /// ```
 #[macro_export]
 macro_rules! tracer_for {
@@ -877,7 +911,10 @@ macro_rules! tracer_for {
         $crate::tracer_for!($pools, in $type, stack = $crate::DEFAULT_MAX_DEPTH)
     };
     ($pools:ident, in $type:ty, stack = $stack:expr) => {
-        $crate::Tracer::<'_, _, { <$type>::NEEDS.bits() }, { $stack }>::with_stages($pools.as_scene())
+        $crate::Tracer::<'_, _, { <$type>::STAGES.bits() }, { $stack }>::with_stages(
+            // The type is that of the pools, or this does not compile.
+            <$type>::as_scene(&$pools),
+        )
     };
     ($scene:path) => {
         $crate::tracer_for!($scene, stack = $crate::DEFAULT_MAX_DEPTH)
@@ -891,7 +928,7 @@ macro_rules! tracer_for {
     ($scene:path, cutoff = $cutoff:expr, stack = $stack:expr) => {
         $crate::tracer_for!(
             $scene,
-            stages = $scene.needs().union($crate::Needs::CUTOFF),
+            stages = $scene.needs().union($crate::Stages::CUTOFF),
             stack = $stack
         )
         .with_compiled_cutoff($cutoff)
@@ -900,7 +937,7 @@ macro_rules! tracer_for {
         $crate::tracer_for!($scene, stages = $stages, stack = $crate::DEFAULT_MAX_DEPTH)
     };
     ($scene:path, stages = $stages:expr, stack = $stack:expr) => {{
-        const STAGES: $crate::Needs = $stages;
+        const STAGES: $crate::Stages = $stages;
         // An item, so that `cargo check` looks at it too.
         const _: () = $scene.needs().require(STAGES);
         $crate::Tracer::<'static, _, { STAGES.bits() }, { $stack }>::with_stages($scene)

@@ -2,8 +2,8 @@
 
 use crate::color::Color;
 use crate::material::MaterialDescription;
-use crate::ray::{Ray, Side};
-use crate::scene::Object;
+use crate::ray::{ObjectNumber, Ray, Side};
+use crate::shape::Object;
 use crate::vec3::Vec3;
 
 /// Why a ray is cast.
@@ -35,8 +35,10 @@ pub enum TestKind {
 /// A meeting of a ray with an object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting<'a, T> {
-    /// The object's side that the ray comes from.
+    /// The object's side that the ray comes from, by its index among all objects.
     pub side: Side,
+    /// The object's place in the text.
+    pub number: ObjectNumber,
     /// Distance along the ray.
     pub t: T,
     /// The point, projected back onto the surface.

@@ -2,13 +2,15 @@
 
 use super::{Hit, LightAtHit, Observer, RayKind, Tracer, stage};
 use crate::color::Color;
+use crate::formula::shading::{alignment, power, reflected};
 use crate::light::Light;
 use crate::material::Material;
 use crate::ray::Ray;
+use crate::real::Real;
 use crate::scalar::Scalar;
-use crate::scene::Needs;
+use crate::stages::Stages;
 
-impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, STACK> {
+impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, STACK> {
     /// Ambient light, and of every light that reaches the hit the diffuse share and the highlight
     /// (Phong 1975). Not clamped.
     #[inline(always)]
@@ -21,17 +23,16 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
     ) -> Color<T> {
         let material = hit.material.description();
         let mut color = self.scene.ambient_color(material);
-        let reach = hit.reach;
-        if !stage(NEEDS, Needs::LIGHT) {
+        if !stage(NEEDS, Stages::LIGHT) {
             return color;
         }
-        if stage(NEEDS, Needs::SHADOWS) && reach.shadowed {
+        if stage(NEEDS, Stages::SHADOWS) && hit.candidates.shadowed {
             observer.light(LightAtHit::Enclosed);
             return color;
         }
         for light in self.scene.lights {
             color = self.lit(ray, hit, light, color, depth, observer);
-            if !stage(NEEDS, Needs::SEVERAL_LIGHTS) {
+            if !stage(NEEDS, Stages::SEVERAL_LIGHTS) {
                 break;
             }
         }
@@ -49,9 +50,9 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         depth: usize,
         observer: &mut impl Observer<T>,
     ) -> Color<T> {
-        let occluders = match hit.zone {
-            Some(zone) => hit.reach.occluders.intersection(zone.occluders()),
-            None => hit.reach.occluders,
+        let occluders = match hit.cell {
+            Some(cell) => hit.candidates.occluders.intersection(cell.occluders()),
+            None => hit.candidates.occluders,
         };
         let to_light = light.position - hit.outside;
         // The sign of N·L, before its length is known: a light behind the surface costs no root.
@@ -66,7 +67,7 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
         let distance = distance_squared.sqrt();
         let inverse = T::ONE.over(distance);
         let direction = to_light * inverse;
-        if stage(NEEDS, Needs::SHADOWS) {
+        if stage(NEEDS, Stages::SHADOWS) {
             let shadow = Ray {
                 origin: hit.outside,
                 direction,
@@ -79,21 +80,26 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             }
         }
         let material = hit.material.description();
-        let cosine = toward.times(inverse);
-        // Light first, then material: a factor ≤ 1 keeps the product finite, so that 0·∞ cannot
-        // arise from bright lights on bright materials.
-        let diffuse = light.diffuse * cosine * material.diffuse;
+        let cosine = (Real(toward) * Real(inverse)).0;
+        let diffuse = reflected(light.diffuse, cosine, material.diffuse);
         let mut color = color + diffuse;
         let mut specular = None;
-        if stage(NEEDS, Needs::SPECULAR) && !material.specular.is_black() {
-            // R·V with R = 2(N·L)N − L and V = −d.
-            let alignment = cosine
-                .double()
-                .times(hit.cosine)
-                .plus(direction.dot(ray.direction));
-            if alignment.upper_half() >= hit.material.faint_alignment() && alignment.is_positive() {
+        if stage(NEEDS, Stages::SPECULAR) && !material.specular.is_black() {
+            let alignment = alignment(
+                Real(cosine),
+                Real(hit.cosine),
+                direction.real(),
+                ray.direction.real(),
+            )
+            .0;
+            let faint = if self.scene.accel.knows_faint {
+                hit.material.faint_alignment()
+            } else {
+                0
+            };
+            if alignment.upper_half() >= faint && alignment.is_positive() {
                 let highlight = self.phong_power(alignment, hit.material);
-                let light = light.specular * highlight * material.specular;
+                let light = reflected(light.specular, highlight, material.specular);
                 color = color + light;
                 specular = Some(light);
             }
@@ -111,10 +117,10 @@ impl<'a, T: Scalar, const NEEDS: u32, const STACK: usize> Tracer<'a, T, NEEDS, S
             T::ONE
         };
         let whole = material.whole_shininess();
-        if stage(NEEDS, Needs::FRACTIONAL_SHININESS) && whole == Material::<T>::FRACTIONAL {
+        if stage(NEEDS, Stages::FRACTIONAL_SHININESS) && whole == Material::<T>::FRACTIONAL {
             base.powf(material.description().shininess)
         } else {
-            base.powi(whole)
+            power(Real(base), whole).0
         }
     }
 }

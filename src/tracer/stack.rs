@@ -2,9 +2,9 @@
 
 use heapless::Vec;
 
+use crate::accel::ObjectSet;
 use crate::color::Color;
 use crate::ray::Ray;
-use crate::scene::ObjectSet;
 
 /// The frames from the primary hit down to the ray under way, whose depth is their number.
 pub(super) type Stack<T, const CAPACITY: usize> = Vec<Frame<T>, CAPACITY>;

@@ -4,7 +4,7 @@
 // Each target uses one of them.
 #![allow(dead_code)]
 
-use scanray::{Color, FromDecimal, RayCount, Resolution, Scalar, Scene, ScenePools, Tracer};
+use scanray::{Color, FromDecimal, RayCount, Resolution, Scalar, ScenePools, Tracer};
 
 /// Any bytes are a scene or an error at a place of the text, which leaves the pools empty.
 pub(crate) fn parse(text: &[u8]) {
@@ -68,11 +68,7 @@ fn draw_with<T: Scalar + FromDecimal>(text: &[u8]) {
     };
     let Some(pools) = read::<T>(text) else { return };
     let scene = pools.as_scene();
-    let every_object = Scene {
-        sides: &[],
-        zones: &[],
-        ..scene
-    };
+    let every_object = scene.without_accel();
     let tracer = Tracer::new(scene).with_resolution(SIZE);
     let exhaustive = Tracer::new(every_object).with_resolution(SIZE);
     for y in 0..SIZE.height {

@@ -6,7 +6,7 @@ use crate::common::scenes::{Model, Part, RoomyPools, Shape, load, names};
 use scanray::shape::ShapeError;
 use scanray::{
     Background, Camera, Color, FromDecimal, Light, Material, MaterialDescription, ObjectSet,
-    PoolsMut, Resolution, Scalar, Scene, SceneError, ScenePools, Tracer, Tree, Vec3,
+    PoolsMut, Resolution, Scalar, Scene, SceneError, ScenePools, Tracer, Vec3,
 };
 
 /// Draws a scene with its candidates and by brute force and compares all bits. How many tests by brute force
@@ -16,18 +16,7 @@ fn compare<T: Scalar>(
     resolution: Resolution,
     what: impl Fn() -> String,
 ) -> u64 {
-    let materials: Vec<_> = scene
-        .materials
-        .iter()
-        .map(|material| Material::new(*material.description()))
-        .collect();
-    let brute_force = Scene {
-        materials: &materials,
-        sides: &[],
-        zones: &[],
-        tree: Tree::NONE,
-        ..scene
-    };
+    let brute_force = scene.without_accel();
     let with = Tracer::new(scene).with_resolution(resolution);
     let without = Tracer::new(brute_force).with_resolution(resolution);
     let mut misses = ClearMisses::default();
@@ -55,7 +44,8 @@ fn excluded_pairs<T: Scalar>(scene: Scene<'_, T>) -> usize {
     let objects = scene.object_count();
     let excluded = |set: ObjectSet| objects - set.members(objects).count();
     let eighths: usize = scene
-        .sides
+        .accel()
+        .sides()
         .iter()
         .map(|side| {
             let near: usize = side.near.iter().copied().map(excluded).sum();
@@ -65,15 +55,16 @@ fn excluded_pairs<T: Scalar>(scene: Scene<'_, T>) -> usize {
     eighths / 8
 }
 
-/// The same of the zones of planes: of the pairs of a strip's direction along its axis, or its way to the lights, and an
+/// The same of the grids of planes: of the pairs of a slab's direction along its axis, or its way to the lights, and an
 /// object.
-fn excluded_by_zones<T: Scalar>(scene: Scene<'_, T>) -> usize {
+fn excluded_by_grids<T: Scalar>(scene: Scene<'_, T>) -> usize {
     let objects = scene.object_count();
     scene
-        .zones
+        .accel()
+        .grids()
         .iter()
-        .flat_map(|zones| zones.strips.as_flattened())
-        .flat_map(|strip| [strip.ahead[0], strip.ahead[1], strip.occluders])
+        .flat_map(|grid| grid.slabs.as_flattened())
+        .flat_map(|slab| [slab.ahead[0], slab.ahead[1], slab.occluders])
         .map(|set| objects - set.members(objects).count())
         .sum()
 }
@@ -103,12 +94,12 @@ fn scenes_of_the_repository<T: Scalar + FromDecimal>() {
         let scene = pools.as_scene();
         if scene.object_count() <= ObjectSet::TOLD_APART {
             // Of 48 directions and ways of each plane, one of four excludes one object at least.
-            let by_zones = excluded_by_zones(scene);
-            println!("{name}: {by_zones} pairs excluded by zones");
-            assert!(by_zones >= 12 * scene.planes.len(), "{name}: {by_zones}");
+            let by_grids = excluded_by_grids(scene);
+            println!("{name}: {by_grids} pairs excluded by grids");
+            assert!(by_grids >= 12 * scene.planes().len(), "{name}: {by_grids}");
         }
         let with_faint = |material: &Material<T>| material.faint_alignment() > 0;
-        let faint = scene.materials.iter().copied().filter(with_faint).count();
+        let faint = scene.materials().iter().copied().filter(with_faint).count();
         println!("{name}: {faint} materials with faint highlights");
         assert!(faint > 0, "{name}: no highlight is faint");
     }
@@ -238,7 +229,7 @@ fn crowded_scenes<T: Scalar>(default_seed: u64, scenes: usize) {
         let model = crowded::<T>(&random, offset * scale, scale);
         let mut pools = RoomyPools::new();
         fill(&mut pools.as_mut(), &model);
-        assert!(!pools.as_scene().sides.is_empty());
+        assert!(!pools.as_scene().accel().sides().is_empty());
         let resolution = Resolution {
             width: 24,
             height: 18,
@@ -287,7 +278,7 @@ fn objects_beyond_the_bits_of_a_set_are_candidates() {
             height: 12,
         };
         let scene = pools.as_scene();
-        assert!(scene.spheres.len().max(scene.triangles.len()) > ObjectSet::TOLD_APART);
+        assert!(scene.spheres().len().max(scene.triangles().len()) > ObjectSet::TOLD_APART);
         compare(scene, resolution, || "a large scene".into());
     }
 }

@@ -3,6 +3,7 @@
 
 use crate::common::random::Random;
 use crate::common::scenes::RoomyPools;
+use scanray::ScenePools;
 use scanray::shape::{Plane, Sphere, Surface, Triangle};
 use scanray::{MaterialDescription, Object, Ray, Scalar, Side, Tracer, Vec3};
 
@@ -454,24 +455,40 @@ fn triangles_in_double_precision() {
 #[test]
 fn rays_that_leave_a_flat_object_do_not_meet_it_again() {
     let random = Random::of_test(90);
-    for _ in 0..50_000 {
+    for round in 0..20_000 {
         let scale = random.log_between(1e-4, 1e4);
-        let surface = Surface {
-            material: 3,
-            number: random.below(1_000) as u32,
-        };
+        let mut pools = ScenePools::<f32, 1, 1, 1, 1, 0, 4>::new();
+        let mut filling = pools.as_mut();
+        let material = MaterialDescription::default();
+        filling
+            .add_plane(random.direction(), scale as f32, material)
+            .unwrap();
         let vertices = [(); 3].map(|()| random.point::<f32>(scale));
-        let leaving = Ray {
-            origin: random.point(scale),
-            direction: random.direction(),
-            leaves: Side::new(surface.number, random.below(2) == 0),
-        };
-        let plane = Plane::new(random.direction(), scale as f32, surface).unwrap();
-        assert_eq!(plane.intersect(&leaving, f32::MAX), None);
-        assert!(!plane.occludes(&leaving, f32::MAX));
-        if let Ok(triangle) = Triangle::new(vertices, surface) {
-            assert_eq!(triangle.intersect(&leaving, f32::MAX), None);
-            assert!(!triangle.occludes(&leaving, f32::MAX));
+        let _ = filling.add_triangle(vertices, material);
+        // With what is derived and without.
+        if round % 2 == 0 {
+            pools.prepare();
+        }
+        let scene = pools.as_scene();
+        let tracer = Tracer::new(scene);
+        for index in 0..scene.object_count() {
+            let leaving = Ray {
+                origin: random.point(scale),
+                direction: random.direction(),
+                leaves: Side::new(index as u32, random.below(2) == 0),
+            };
+            let met = tracer.nearest(&leaving).map(|nearest| nearest.index);
+            assert_ne!(met, Some(index), "{leaving:?}");
+            let others = Tracer::new(match index {
+                0 => scene.with_planes(&[]),
+                _ => scene.with_triangles(&[]),
+            });
+            let open = Ray::new(leaving.origin, leaving.direction);
+            let reach = f32::MAX;
+            assert_eq!(
+                tracer.occluded(&leaving, reach),
+                others.occluded(&open, reach)
+            );
         }
     }
 }
@@ -482,6 +499,7 @@ fn geometry(object: Object<'_>) -> String {
         Object::Sphere(sphere) => format!("sphere {:?} {}", sphere.center(), sphere.radius()),
         Object::Plane(plane) => format!("plane {:?} {}", plane.normal(), plane.height()),
         Object::Triangle(triangle) => format!("triangle {:?}", triangle.vertices()),
+        other => format!("{:?}", other.shape()),
     }
 }
 
@@ -558,6 +576,7 @@ fn singly(tracer: &Tracer<'_>, ray: &Ray) -> Option<f32> {
             Object::Sphere(sphere) => sphere.intersect(ray, f32::MAX),
             Object::Plane(plane) => plane.intersect(ray, f32::MAX),
             Object::Triangle(triangle) => triangle.intersect(ray, f32::MAX).map(|(t, _)| t),
+            _ => unreachable!(),
         })
         .min_by(f32::total_cmp)
 }

@@ -4,8 +4,8 @@
 use crate::common::random::Random;
 use crate::common::sampling::bits;
 use scanray::{
-    Camera, Color, Light, MaterialDescription, Ray, Resolution, Scalar, Scene, ScenePools, Side,
-    Tracer, Tree, Vec3,
+    Camera, Color, Light, MaterialDescription, Ray, Resolution, Scalar, ScenePools, Side, Tracer,
+    Vec3,
 };
 
 type Pools<T> = ScenePools<T, 256, 4, 512, 800, 1, 0, 768>;
@@ -261,12 +261,9 @@ fn compare_crowds<T: Scalar>(seed: u64, scenes: usize) {
     for index in 0..scenes {
         let crowd = Crowd::<T>::new(&random);
         let scene = crowd.pools.as_scene();
-        assert!(scene.tree.is_some());
-        let by_tree = Tracer::new(scene).with_tree();
-        let brute_force = Tracer::new(Scene {
-            tree: Tree::NONE,
-            ..scene
-        });
+        assert!(scene.accel().bvh().is_some());
+        let by_tree = Tracer::new(scene).with_bvh();
+        let brute_force = Tracer::new(scene.without_accel());
         for _ in 0..200 {
             let ray = crowd.ray();
             let (actual, expected) = (by_tree.nearest(&ray), brute_force.nearest(&ray));
@@ -295,7 +292,7 @@ fn compare_crowds<T: Scalar>(seed: u64, scenes: usize) {
             let mut count = scanray::WorkCount::default();
             by_tree.radiance_observed(ray, scanray::ObjectSet::ALL, &mut count);
             boxes += count.box_tests;
-            tests += count.rays() * scene.tree.nodes.len() as u64;
+            tests += count.rays() * scene.accel().bvh().nodes.len() as u64;
         }
     }
     // The comparison is of meetings, and not of trees that leave out nothing.
@@ -345,11 +342,8 @@ fn pictures_are_those_of_brute_force() {
             width: 24,
             height: 18,
         };
-        let by_tree = Tracer::new(scene).with_tree().with_resolution(size);
-        let brute_force = Scene {
-            tree: Tree::NONE,
-            ..scene
-        };
+        let by_tree = Tracer::new(scene).with_bvh().with_resolution(size);
+        let brute_force = scene.without_accel();
         let brute_force = Tracer::new(brute_force).with_resolution(size);
         for y in 0..size.height {
             for x in 0..size.width {
@@ -367,7 +361,7 @@ fn pictures_are_those_of_brute_force() {
 fn rays_that_are_none_meet_nothing() {
     let random = Random::of_test(4);
     let crowd = Crowd::<f32>::new(&random);
-    let tracer = Tracer::new(crowd.pools.as_scene()).with_tree();
+    let tracer = Tracer::new(crowd.pools.as_scene()).with_bvh();
     let numbers = [f32::NAN, f32::INFINITY, -f32::INFINITY, 0.0, 1e38, 1e-45];
     for _ in 0..2000 {
         let number = || numbers[random.below(numbers.len())];
@@ -377,10 +371,7 @@ fn rays_that_are_none_meet_nothing() {
             ray.origin = Vec3::new(number(), number(), number());
         }
         let nearest = tracer.nearest(&ray);
-        let brute_force = Tracer::new(Scene {
-            tree: Tree::NONE,
-            ..*tracer.scene()
-        });
+        let brute_force = Tracer::new(tracer.scene().without_accel());
         if !(ray.origin.is_finite() && ray.direction.is_finite()) {
             assert_eq!(nearest, None, "{ray:?}");
             assert_eq!(brute_force.nearest(&ray), None, "{ray:?}");
@@ -393,12 +384,12 @@ fn rays_that_are_none_meet_nothing() {
 fn another_object_undoes_the_tree_and_small_pools_have_none() {
     let random = Random::of_test(5);
     let mut crowd = Crowd::<f32>::new(&random);
-    assert!(crowd.pools.as_scene().tree.is_some());
+    assert!(crowd.pools.as_scene().accel().bvh().is_some());
     let mut filling = Pools::as_mut(&mut crowd.pools);
     filling
         .add_sphere(Vec3::default(), 1.0, MaterialDescription::default())
         .unwrap();
-    assert!(!crowd.pools.as_scene().tree.is_some());
+    assert!(!crowd.pools.as_scene().accel().bvh().is_some());
 
     let mut small: ScenePools<f32, 128, 1, 1, 1, 1, 0, 99> = ScenePools::new();
     for count in 1..=100 {
@@ -409,7 +400,7 @@ fn another_object_undoes_the_tree_and_small_pools_have_none() {
             .unwrap();
         small.prepare();
         // Few objects do not need one, and there is room for 99.
-        let tree = small.as_scene().tree;
+        let tree = small.as_scene().accel().bvh();
         assert_eq!(
             tree.is_some(),
             (48..=99).contains(&count),
@@ -417,7 +408,7 @@ fn another_object_undoes_the_tree_and_small_pools_have_none() {
         );
         assert_eq!(
             tree.is_some(),
-            small.as_scene().needs().contains(scanray::Needs::TREE)
+            small.as_scene().needs().contains(scanray::Stages::BVH)
         );
     }
 }

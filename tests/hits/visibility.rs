@@ -6,17 +6,19 @@ use crate::common::random::Random;
 use crate::common::sampling::{self, bits};
 use crate::common::scenes::{self, Model, Part, RoomyPools, Shape};
 use scanray::{
-    Background, Color, Light, MaterialDescription, Resolution, Scalar, Scene, ScenePools, Tracer,
-    Vec3,
+    Background, Color, Light, MaterialDescription, Resolution, Scalar, ScenePools, Tracer, Vec3,
 };
 
 /// Compares the picture of prepared pools with that of pools which know nothing of visibility.
 fn compare<T: Scalar>(model: &Model<T>, size: Resolution, how: &dyn std::fmt::Display) {
     let plain = model.build();
-    assert!(plain.as_scene().sides.is_empty());
+    assert!(plain.as_scene().accel().sides().is_empty());
     let mut prepared = model.build();
     prepared.prepare();
-    assert_eq!(prepared.as_scene().sides.len(), 2 * model.parts.len());
+    assert_eq!(
+        prepared.as_scene().accel().sides().len(),
+        2 * model.parts.len()
+    );
     let plain = Tracer::new(plain.as_scene()).with_resolution(size);
     let prepared = Tracer::new(prepared.as_scene()).with_resolution(size);
     for y in 0..size.height {
@@ -223,6 +225,7 @@ fn random_model<T: Scalar>(random: &Random) -> Model<T> {
                 Shape::Sphere { center, .. } => center,
                 Shape::Plane { normal, distance } => normal * -distance,
                 Shape::Triangle([v1, v2, _]) => (v1 + v2) * T::HALF,
+                _ => unreachable!(),
             },
             2 => maker.point() * T::from_f64(100.0),
             _ => maker.point() + Vec3::new(T::ZERO, T::from_f64(scale), T::ZERO),
@@ -330,16 +333,28 @@ fn a_change_of_the_scene_forgets_what_was_visible() {
         let mut pools: RoomyPools<f32> = model.build();
         pools.prepare();
         part.add_to(&mut pools.as_mut()).unwrap();
-        assert!(pools.as_scene().sides.is_empty(), "scene {round}, object");
+        assert!(
+            pools.as_scene().accel().sides().is_empty(),
+            "scene {round}, object"
+        );
         model.parts.push(part);
         pools.prepare();
-        assert_eq!(pools.as_scene().sides.len(), 2 * model.parts.len());
+        assert_eq!(
+            pools.as_scene().accel().sides().len(),
+            2 * model.parts.len()
+        );
         if model.lights.len() < 4 {
             pools.as_mut().add_light(light).unwrap();
-            assert!(pools.as_scene().sides.is_empty(), "scene {round}, light");
+            assert!(
+                pools.as_scene().accel().sides().is_empty(),
+                "scene {round}, light"
+            );
         }
         pools.as_mut().clear();
-        assert!(pools.as_scene().sides.is_empty(), "scene {round}, clear");
+        assert!(
+            pools.as_scene().accel().sides().is_empty(),
+            "scene {round}, clear"
+        );
     }
 }
 
@@ -381,7 +396,7 @@ fn too_many_objects_are_drawn_all_the_same() {
     filling.set_background(model.background);
     filling.add_light(model.lights[0]).unwrap();
     small.prepare();
-    assert!(small.as_scene().sides.is_empty());
+    assert!(small.as_scene().accel().sides().is_empty());
     let roomy = model.build();
     let small = Tracer::new(small.as_scene()).with_resolution(size);
     let roomy = Tracer::new(roomy.as_scene()).with_resolution(size);
@@ -399,7 +414,7 @@ fn an_object_that_is_refused_changes_nothing() {
     let mut pools: ScenePools = scenes::load("default");
     let before = (
         pools.as_scene().object_count(),
-        pools.as_scene().sides.len(),
+        pools.as_scene().accel().sides().len(),
     );
     assert!(before.1 > 0);
     let mut filling = pools.as_mut();
@@ -412,7 +427,7 @@ fn an_object_that_is_refused_changes_nothing() {
             .is_err()
     );
     let scene = pools.as_scene();
-    assert_eq!((scene.object_count(), scene.sides.len()), before);
+    assert_eq!((scene.object_count(), scene.accel().sides().len()), before);
 }
 
 /// Draws texts with what is known of visibility and without.
@@ -426,11 +441,7 @@ fn compare_texts(texts: &[&str]) {
         pools.parse(text.as_bytes()).unwrap();
         let scene = pools.as_scene();
         let prepared = Tracer::new(scene).with_resolution(SIZE);
-        let plain = Scene {
-            sides: &[],
-            zones: &[],
-            ..scene
-        };
+        let plain = scene.without_accel();
         let plain = Tracer::new(plain).with_resolution(SIZE);
         for (x, y) in (0..8).flat_map(|y| (0..8).map(move |x| (x, y))) {
             let expected = plain.radiance(plain.primary_ray(&plain.scanline(y), x));

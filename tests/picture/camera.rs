@@ -31,7 +31,7 @@ fn camera_follows_its_formula<T: Scalar + scanray::FromDecimal>() {
         for y in (0..size.height).step_by(usize::from(size.height / 50 + 1)) {
             for x in (0..size.width).step_by(usize::from(size.width / 50 + 1)) {
                 let ray = tracer.primary_ray(&tracer.scanline(y), x);
-                let position = tracer.scene().camera.position;
+                let position = tracer.scene().camera().position;
                 assert_eq!(ray.origin, position);
                 let exact = View::of(&tracer).ray((x, y), (0.0, 0.0));
                 let off = (ray.direction - exact.direction).abs().max_component();

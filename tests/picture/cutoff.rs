@@ -7,8 +7,8 @@ use embedded_graphics::pixelcolor::{
     Gray2, Gray4, Gray8, GrayColor, Rgb555, Rgb565, Rgb666, Rgb888, RgbColor,
 };
 use scanray::{
-    Background, Color, DisplayColor, Light, MaterialDescription, MissingStages, Needs, Picture,
-    Resolution, Scalar, Scene, Tracer, Vec3, WorkCount,
+    Background, Color, DisplayColor, Light, MaterialDescription, MissingStages, Picture,
+    Resolution, Scalar, Scene, Stages, Tracer, Vec3, WorkCount,
 };
 
 const SIZE: Resolution = Resolution {
@@ -236,17 +236,17 @@ fn a_cutoff_of_one_leaves_no_secondary_ray_whose_coefficient_is_below() {
 
 #[test]
 fn the_stage_is_not_dropped_unnoticed() {
-    const FEW: u32 = Needs::ALL.bits();
+    const FEW: u64 = Stages::ALL.bits();
     let pools = load::<f32>("default");
     let tracer = Tracer::new(pools.as_scene()).with_cutoff(0.1);
     assert_eq!(
         tracer.specialize::<FEW>().err(),
-        Some(MissingStages(Needs::CUTOFF))
+        Some(MissingStages(Stages::CUTOFF))
     );
     let none = tracer
         .with_compiled_cutoff(0.0)
         .specialize::<FEW>()
         .unwrap();
-    assert_eq!((none.cutoff(), none.stages()), (0.0, Needs::ALL));
-    assert_eq!(Needs::CUTOFF.to_string(), "cutoff");
+    assert_eq!((none.cutoff(), none.stages()), (0.0, Stages::ALL));
+    assert_eq!(Stages::CUTOFF.to_string(), "cutoff");
 }

@@ -78,7 +78,7 @@ fn samples_lie_where_the_pattern_says() {
     // As offsets from the centre of the pixel, by another way to the ray.
     let pools = load::<f64>("default");
     let tracer = Tracer::new(pools.as_scene()).with_resolution(SIZE);
-    let position = tracer.scene().camera.position;
+    let position = tracer.scene().camera().position;
     for at in Supersampled::<Tracer<'_, f64>, 16>::PATTERN {
         let offset = |cell: u8| (f64::from(cell) + 0.5) / 16.0 - 0.5;
         let beside = (offset(at.column), -offset(at.row));

@@ -3,7 +3,7 @@
 
 use crate::common::sampling::bits;
 use crate::common::scenes::load;
-use scanray::{MissingStages, Needs, Resolution, ScenePools, Tracer};
+use scanray::{MissingStages, Resolution, ScenePools, Stages, Tracer};
 
 const SIZE: Resolution = Resolution {
     width: 80,
@@ -11,22 +11,22 @@ const SIZE: Resolution = Resolution {
 };
 
 /// What all scenes of the repository need.
-const COMMON: Needs = Needs::SPHERES
-    .union(Needs::SEVERAL_SPHERES)
-    .union(Needs::PLANES)
-    .union(Needs::TRIANGLES)
-    .union(Needs::LIGHT)
-    .union(Needs::SHADOWS)
-    .union(Needs::SPECULAR)
-    .union(Needs::REFLECTION);
+const COMMON: Stages = Stages::SPHERES
+    .union(Stages::SEVERAL_SPHERES)
+    .union(Stages::PLANES)
+    .union(Stages::TRIANGLES)
+    .union(Stages::LIGHT)
+    .union(Stages::SHADOWS)
+    .union(Stages::SPECULAR)
+    .union(Stages::REFLECTION);
 
 /// Draws a scene with the stages `NEEDS` alone, which must be exactly those it needs.
-fn draws_with<const NEEDS: u32>(name: &str) {
+fn draws_with<const NEEDS: u64>(name: &str) {
     let pools = load::<f32>(name);
     let all = Tracer::new(pools.as_scene()).with_resolution(SIZE);
-    assert_eq!(all.stages(), Needs::ALL);
-    assert_eq!(all.with_tree().stages(), Needs::ALL.union(Needs::TREE));
-    assert_eq!(pools.as_scene().needs(), Needs::from_bits(NEEDS), "{name}");
+    assert_eq!(all.stages(), Stages::ALL);
+    assert_eq!(all.with_bvh().stages(), Stages::ALL.union(Stages::BVH));
+    assert_eq!(pools.as_scene().needs(), Stages::from_bits(NEEDS), "{name}");
     let few = all.specialize::<NEEDS>().unwrap();
     for y in 0..SIZE.height {
         for x in 0..SIZE.width {
@@ -41,12 +41,12 @@ fn draws_with<const NEEDS: u32>(name: &str) {
 
 #[test]
 fn the_scenes_have_the_same_bits_with_what_they_need() {
-    const STRAIGHT: Needs = COMMON.union(Needs::REFRACTION);
-    const BENT: Needs = STRAIGHT.union(Needs::BENDING);
-    const FACES: Needs = Needs::SEVERAL_TRIANGLES;
-    const WALLS: Needs = Needs::SEVERAL_PLANES.union(FACES);
-    const SKY: Needs = Needs::SKY;
-    const PLAIN: Needs = Needs::PLAIN_BACKGROUND;
+    const STRAIGHT: Stages = COMMON.union(Stages::REFRACTION);
+    const BENT: Stages = STRAIGHT.union(Stages::BENDING);
+    const FACES: Stages = Stages::SEVERAL_TRIANGLES;
+    const WALLS: Stages = Stages::SEVERAL_PLANES.union(FACES);
+    const SKY: Stages = Stages::SKY;
+    const PLAIN: Stages = Stages::PLAIN_BACKGROUND;
     draws_with::<{ BENT.union(SKY).bits() }>("default");
     draws_with::<{ STRAIGHT.union(FACES).union(SKY).bits() }>("reflective");
     draws_with::<
@@ -54,7 +54,7 @@ fn the_scenes_have_the_same_bits_with_what_they_need() {
             STRAIGHT
                 .union(WALLS)
                 .union(SKY)
-                .union(Needs::MANY_OBJECTS)
+                .union(Stages::MANY_OBJECTS)
                 .bits()
         },
     >("window-room");
@@ -69,7 +69,7 @@ fn a_missing_stage_is_named() {
     let error = tracer.specialize::<{ COMMON.bits() }>().unwrap_err();
     assert_eq!(
         error,
-        MissingStages(Needs::REFRACTION.union(Needs::BENDING).union(Needs::SKY))
+        MissingStages(Stages::REFRACTION.union(Stages::BENDING).union(Stages::SKY))
     );
     assert_eq!(
         error.to_string(),
@@ -80,14 +80,14 @@ fn a_missing_stage_is_named() {
 #[test]
 fn loops_are_needed_where_there_are_several() {
     type Pools = ScenePools<f32, 2, 1, 1, 4, 2>;
-    const LOOPS: Needs = Needs::SEVERAL_SPHERES.union(Needs::SEVERAL_LIGHTS);
-    const REST: Needs = Needs::SEVERAL_PLANES
-        .union(Needs::SEVERAL_TRIANGLES)
-        .union(Needs::MANY_OBJECTS);
-    assert_eq!(Pools::NEEDS, Needs::ALL.without(REST));
-    let none = ScenePools::<f32, 0, 0, 1, 1, 0>::NEEDS;
-    assert!(none.contains(Needs::TRIANGLES));
-    for left_out in [Needs::SPHERES, Needs::PLANES, Needs::LIGHT, LOOPS, REST] {
+    const LOOPS: Stages = Stages::SEVERAL_SPHERES.union(Stages::SEVERAL_LIGHTS);
+    const REST: Stages = Stages::SEVERAL_PLANES
+        .union(Stages::SEVERAL_TRIANGLES)
+        .union(Stages::MANY_OBJECTS);
+    assert_eq!(Pools::STAGES, Stages::ALL.without(REST));
+    let none = ScenePools::<f32, 0, 0, 1, 1, 0>::STAGES;
+    assert!(none.contains(Stages::TRIANGLES));
+    for left_out in [Stages::SPHERES, Stages::PLANES, Stages::LIGHT, LOOPS, REST] {
         assert!(none.without(left_out) == none, "{left_out}");
     }
 
@@ -99,19 +99,19 @@ fn loops_are_needed_where_there_are_several() {
         )
         .unwrap();
     let one_light = pools.as_scene();
-    assert!(one_light.needs().contains(Needs::SEVERAL_SPHERES));
-    assert!(!one_light.needs().contains(Needs::SEVERAL_LIGHTS));
+    assert!(one_light.needs().contains(Stages::SEVERAL_SPHERES));
+    assert!(!one_light.needs().contains(Stages::SEVERAL_LIGHTS));
     let pixels = || (0..6).flat_map(|y| (0..8).map(move |x| (x, y)));
     let dark = Tracer::new(one_light);
     let before: Vec<_> = pixels().map(|(x, y)| bits(dark.pixel(x, y))).collect();
-    let mut light = one_light.lights[0];
+    let mut light = one_light.lights()[0];
     light.position.x = -5.0;
     pools.as_mut().add_light(light).unwrap();
     pools.prepare();
     let scene = pools.as_scene();
     assert!(scene.needs().contains(LOOPS));
     let all = Tracer::new(scene);
-    let few = all.specialize::<{ Pools::NEEDS.bits() }>().unwrap();
+    let few = all.specialize::<{ Pools::STAGES.bits() }>().unwrap();
     let mut after = Vec::new();
     for (x, y) in pixels() {
         after.push(bits(few.pixel(x, y)));
@@ -119,9 +119,9 @@ fn loops_are_needed_where_there_are_several() {
     }
     assert_ne!(before, after);
     let error = all
-        .specialize::<{ Needs::ALL.without(Needs::SEVERAL_LIGHTS).bits() }>()
+        .specialize::<{ Stages::ALL.without(Stages::SEVERAL_LIGHTS).bits() }>()
         .unwrap_err();
-    assert_eq!(error, MissingStages(Needs::SEVERAL_LIGHTS));
+    assert_eq!(error, MissingStages(Stages::SEVERAL_LIGHTS));
 }
 
 #[test]
@@ -137,17 +137,17 @@ fn fractional_shininess_is_needed_where_it_shows() {
         pools.parse(text.as_bytes()).unwrap();
         pools.as_scene().needs()
     };
-    let shining = Needs::SPHERES
-        .union(Needs::LIGHT)
-        .union(Needs::SHADOWS)
-        .union(Needs::PLAIN_BACKGROUND)
-        .union(Needs::SPECULAR);
+    let shining = Stages::SPHERES
+        .union(Stages::LIGHT)
+        .union(Stages::SHADOWS)
+        .union(Stages::PLAIN_BACKGROUND)
+        .union(Stages::SPECULAR);
     assert_eq!(needs(text("50", "1 1 1")), shining);
-    let fractional = shining.union(Needs::FRACTIONAL_SHININESS);
+    let fractional = shining.union(Stages::FRACTIONAL_SHININESS);
     assert_eq!(needs(text("50.5", "1 1 1")), fractional);
     // Without a highlight its exponent does not matter.
     assert_eq!(
         needs(text("50.5", "0 0 0")),
-        shining.without(Needs::SPECULAR)
+        shining.without(Stages::SPECULAR)
     );
 }

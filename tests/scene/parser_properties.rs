@@ -268,14 +268,14 @@ fn assert_same_bits(actual: Vec3, expected: Vec3) {
 
 fn assert_stored(scene: &SceneNumbers, pools: &RoomyPools<f32>) {
     let stored = pools.as_scene();
-    assert_same_bits(stored.camera.position, vector(scene.camera));
+    assert_same_bits(stored.camera().position, vector(scene.camera));
     let (width, height) = scene.size;
-    assert_eq!(stored.resolution, Resolution { width, height });
-    assert_eq!(stored.ambient.to_bits(), scene.ambient.to_bits());
-    assert_eq!(stored.background.sky, scene.sky);
-    assert_eq!(stored.background.color, color(scene.background));
-    let [light] = stored.lights else {
-        panic!("{} lights", stored.lights.len())
+    assert_eq!(stored.resolution(), Resolution { width, height });
+    assert_eq!(stored.ambient().to_bits(), scene.ambient.to_bits());
+    assert_eq!(stored.background().sky, scene.sky);
+    assert_eq!(stored.background().color, color(scene.background));
+    let [light] = stored.lights() else {
+        panic!("{} lights", stored.lights().len())
     };
     assert_same_bits(light.position, vector(three(&scene.light, 0)));
     assert_eq!(light.specular, color(three(&scene.light, 3)));
@@ -412,7 +412,7 @@ fn the_published_scene_has_a_short_light_line() {
     let report = pools.parse(&scenes::text("default")).unwrap();
     assert_eq!(report.short_light_line, Some(4));
     assert_eq!(
-        pools.as_scene().lights[0].diffuse,
+        pools.as_scene().lights()[0].diffuse,
         Color::new(1.0, 1.0, 1.0)
     );
     assert_eq!(pools.as_scene().object_count(), 7);
@@ -433,8 +433,8 @@ fn check_any_text(text: &[u8], pools: &mut ScenePools) -> Result<Report, ParseEr
     match result {
         Ok(_) => {
             // What is accepted is accepted again, and can be drawn.
-            assert!(pools.as_scene().lights.len() == 1);
-            assert!(pools.as_scene().resolution.width > 0);
+            assert!(pools.as_scene().lights().len() == 1);
+            assert!(pools.as_scene().resolution().width > 0);
         }
         Err(error) => {
             assert!(error.offset <= text.len(), "{error:?}");
@@ -598,7 +598,7 @@ fn parse_number<T: Scalar + FromDecimal>(text: &str) -> Result<T, ParseError> {
     let scene = format!("0\n0 {text} 0\n1 1\n0 0 0 1 1 1 1 1 1\n0\n0\n0 0 0\n");
     let mut pools = ScenePools::<T>::new();
     pools.parse(scene.as_bytes())?;
-    Ok(pools.as_scene().camera.position.y)
+    Ok(pools.as_scene().camera().position.y)
 }
 
 proptest! {
@@ -669,7 +669,7 @@ fn planes_are_normalised_whatever_the_length_of_their_normal() {
             pools
                 .parse(text.as_bytes())
                 .unwrap_or_else(|error| panic!("{error}\n{text}"));
-            let plane = pools.as_scene().planes[0];
+            let plane = pools.as_scene().planes()[0];
             let exact = normal.map(f64::from);
             let exact_length = exact.iter().map(|n| n * n).sum::<f64>().sqrt();
             let stored = plane.normal();

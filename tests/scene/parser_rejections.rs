@@ -19,14 +19,14 @@ fn rejection(text: &[u8]) -> Result<ParseError, String> {
             let is_empty = scene.object_count() == 0
                 && pools.usage().iter().all(|pool| pool.used == 0)
                 && scene.objects().next().is_none()
-                && scene.camera.position == Vec3::default()
-                && (scene.resolution
+                && scene.camera().position == Vec3::default()
+                && (scene.resolution()
                     == Resolution {
                         width: 0,
                         height: 0,
                     })
-                && scene.ambient == 0.0
-                && scene.background == Background::default();
+                && scene.ambient() == 0.0
+                && scene.background() == Background::default();
             if is_empty {
                 Ok(error)
             } else {
@@ -260,7 +260,7 @@ fn materials_that_are_equal_take_one_place() {
     let mut pools = SmallPools::new();
     let objects = [sphere(1), sphere(2), plane(1), triangle(2), sphere(1)];
     pools.parse(scene_of(&objects).as_bytes()).unwrap();
-    assert_eq!(pools.as_scene().materials.len(), 2);
+    assert_eq!(pools.as_scene().materials().len(), 2);
 }
 
 #[test]
@@ -406,11 +406,11 @@ fn colors_and_intensities_above_one_are_accepted() {
     let mut pools = ScenePools::<f32>::new();
     pools.parse(text.as_bytes()).unwrap();
     let scene = pools.as_scene();
-    assert_eq!(scene.lights[0].specular, Color::new(1e30, 2.0, 3.0));
-    assert_eq!(scene.lights[0].diffuse, Color::new(4.0, 5.0, 6.0));
-    assert_eq!(scene.ambient, 7.5);
-    assert_eq!(scene.background.color, Color::new(8.0, 9.0, 10.0));
-    let material = scene.material(scene.spheres[0].surface());
+    assert_eq!(scene.lights()[0].specular, Color::new(1e30, 2.0, 3.0));
+    assert_eq!(scene.lights()[0].diffuse, Color::new(4.0, 5.0, 6.0));
+    assert_eq!(scene.ambient(), 7.5);
+    assert_eq!(scene.background().color, Color::new(8.0, 9.0, 10.0));
+    let material = scene.material(scene.spheres()[0].surface());
     assert_eq!(material.ambient, Color::new(1.5, 2.5, 3.5));
     assert_eq!(material.reflection, 1.2);
 }

@@ -3,13 +3,13 @@
 #![no_std]
 #![no_main]
 
-use scanray::{Needs, Scene, tracer_for};
+use scanray::{Stages, Scene, tracer_for};
 
 board::entry!(program);
 
 static SCENE: Scene<'static> = include!(concat!(env!("OUT_DIR"), "/scene.rs"));
 
 fn program() -> Result<(), &'static str> {
-    let _ = tracer_for!(SCENE, stages = SCENE.needs().without(Needs::REFRACTION));
+    let _ = tracer_for!(SCENE, stages = SCENE.needs().without(Stages::REFRACTION));
     Ok(())
 }

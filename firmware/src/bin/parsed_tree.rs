@@ -21,10 +21,10 @@ fn program((pools, row): &mut (Pools, Row)) -> Result<(), &'static str> {
         return Err("the scene was rejected");
     }
     let scene = pools.as_scene();
-    if !scene.tree.is_some() {
+    if !scene.accel().bvh().is_some() {
         return Err("the scene has no tree");
     }
-    let tracer = Tracer::new(scene).with_tree();
+    let tracer = Tracer::new(scene).with_bvh();
     measure::picture(tracer.with_resolution(RESOLUTION), row);
     Ok(())
 }

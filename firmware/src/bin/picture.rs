@@ -4,7 +4,7 @@
 #![no_main]
 
 use board::stack;
-use scanray::{DEFAULT_MAX_DEPTH, Needs, Scene, Tracer};
+use scanray::{DEFAULT_MAX_DEPTH, Stages, Scene, Tracer};
 use scanray_firmware::measure::{self, EMPTY_ROW, RESOLUTION, Row};
 
 board::entry!(program, Row = EMPTY_ROW);
@@ -13,7 +13,7 @@ static SCENE: Scene<'static> = include!(concat!(env!("OUT_DIR"), "/scene.rs"));
 
 /// What the scene needs, less what the build leaves out to see what it costs. A program that leaves nothing out says
 /// `tracer_for!(SCENE)`.
-const STAGES: Needs = SCENE
+const STAGES: Stages = SCENE
     .needs()
     .without(include!(concat!(env!("OUT_DIR"), "/without.rs")));
 

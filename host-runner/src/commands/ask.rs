@@ -105,7 +105,7 @@ fn draw(source: &SceneSource) -> Result<(), Failure> {
     refuse_input_as_output(output, source.file())?;
     let place = Place::file(output)?;
     let workers = Workers::new(None)?;
-    let size = scene.resolution;
+    let size = scene.resolution();
     let tracer = HostTracer::new(scene, size, DEFAULT_MAX_DEPTH)?;
     let pixels = f32::pixels(&tracer);
     let picture: Picture<_, Exact<Rgb888>> = Picture::new(&pixels);

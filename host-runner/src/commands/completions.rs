@@ -2,10 +2,9 @@
 
 use std::process::ExitCode;
 
-use clap::{Args, CommandFactory};
+use clap::{Args, Command};
 use clap_complete::Shell;
 
-use crate::cli::Cli;
 use crate::console::print;
 use crate::failure::Failure;
 
@@ -16,20 +15,21 @@ Examples:
   scanray completions bash > scanray.bash    to ~/.local/share/bash-completion/completions/scanray
   scanray completions zsh > _scanray         to a folder of $fpath
   scanray completions fish > scanray.fish    to ~/.config/fish/completions/scanray.fish")]
-pub(crate) struct CompletionsArgs {
+pub struct CompletionsArgs {
     /// The shell
     #[arg(value_name = "SHELL")]
     shell: Shell,
 }
 
-/// Prints the shell's script.
+/// Prints the shell's script for a program.
 ///
 /// # Errors
 ///
 /// [`Failure`].
-pub(crate) fn run(args: &CompletionsArgs) -> Result<ExitCode, Failure> {
+pub fn run(args: &CompletionsArgs, mut program: Command) -> Result<ExitCode, Failure> {
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut Cli::command(), "scanray", &mut script);
+    let name = program.get_name().to_owned();
+    clap_complete::generate(args.shell, &mut program, name, &mut script);
     print(|out| out.write_all(&script))?;
     Ok(ExitCode::SUCCESS)
 }

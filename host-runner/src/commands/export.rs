@@ -87,7 +87,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<ExitCode, Failure> {
         scene,
         name: &source.name(),
         file: &file,
-        resolution: args.size.map_or(scene.resolution, |Size(size)| size),
+        resolution: args.size.map_or(scene.resolution(), |Size(size)| size),
         max_depth: args.max_depth,
     };
     match place {

@@ -3,11 +3,10 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, Command, CommandFactory};
+use clap::{Args, Command};
 use clap_mangen::Man;
 use roff::{Roff, roman};
 
-use crate::cli::Cli;
 use crate::console::{print, say};
 use crate::failure::Failure;
 use crate::output::Place;
@@ -19,7 +18,7 @@ Examples:
   scanray man > scanray.1              the page of the program; man -l scanray.1 shows it
   scanray man render > render.1        the page of a command
   scanray man -o pictures              all pages into a folder, such as ~/.local/share/man/man1")]
-pub(crate) struct ManArgs {
+pub struct ManArgs {
     /// Command whose page is printed [default: the program's]
     #[arg(value_name = "COMMAND", conflicts_with = "output")]
     command: Option<String>,
@@ -29,13 +28,15 @@ pub(crate) struct ManArgs {
     output: Option<PathBuf>,
 }
 
-/// Prints or writes the pages.
+/// Prints or writes the pages of a program.
 ///
 /// # Errors
 ///
 /// [`Failure`].
-pub(crate) fn run(args: &ManArgs) -> Result<ExitCode, Failure> {
-    let mut pages = pages();
+pub fn run(args: &ManArgs, program: Command) -> Result<ExitCode, Failure> {
+    let name_of_program = program.get_name().to_owned();
+    let prefix = format!("{name_of_program}-");
+    let mut pages = pages(program);
     if let Some(folder) = &args.output {
         if !folder.is_dir() {
             return Err(Failure::Files(format!(
@@ -54,13 +55,13 @@ pub(crate) fn run(args: &ManArgs) -> Result<ExitCode, Failure> {
         return Ok(ExitCode::SUCCESS);
     }
     let name = match &args.command {
-        Some(command) => format!("scanray-{command}"),
-        None => "scanray".to_owned(),
+        Some(command) => format!("{prefix}{command}"),
+        None => name_of_program,
     };
     let Some(index) = pages.iter().position(|(page, _)| *page == name) else {
         let names: Vec<_> = pages
             .iter()
-            .filter_map(|(name, _)| name.strip_prefix("scanray-"))
+            .filter_map(|(name, _)| name.strip_prefix(&*prefix))
             .collect();
         return Err(Failure::Usage(format!(
             "there is no command {}; there are {}",
@@ -74,8 +75,9 @@ pub(crate) fn run(args: &ManArgs) -> Result<ExitCode, Failure> {
 }
 
 /// Name and text of each page: the program's, then the commands'.
-fn pages() -> Vec<(String, Vec<u8>)> {
-    let mut program = Cli::command().disable_help_subcommand(true);
+fn pages(program: Command) -> Vec<(String, Vec<u8>)> {
+    let own_name = program.get_name().to_owned();
+    let mut program = program.disable_help_subcommand(true);
     program.build();
     let commands = program.get_subcommands().cloned().collect::<Vec<_>>();
     let page = |name: String, command: Command| {
@@ -93,10 +95,10 @@ fn pages() -> Vec<(String, Vec<u8>)> {
         (name, page)
     };
     let of_commands = commands.into_iter().map(|command| {
-        let name = format!("scanray-{}", command.get_name());
+        let name = format!("{own_name}-{}", command.get_name());
         page(name.clone(), command.name(name.clone()).display_name(name))
     });
-    [page("scanray".to_owned(), program.clone())]
+    [page(own_name.clone(), program.clone())]
         .into_iter()
         .chain(of_commands)
         .collect()

@@ -2,7 +2,7 @@
 
 pub(crate) mod ask;
 pub(crate) mod bake;
-pub(crate) mod completions;
+pub mod completions;
 pub(crate) mod diff;
 pub(crate) mod example;
 pub(crate) mod export;
@@ -10,13 +10,10 @@ pub(crate) mod fmt;
 pub(crate) mod generate;
 pub(crate) mod inspect;
 pub(crate) mod join;
-pub(crate) mod man;
+pub mod man;
 pub(crate) mod needs;
 pub(crate) mod pixel;
 pub(crate) mod render;
-pub(crate) mod report;
-pub(crate) mod stability;
-pub(crate) mod tune;
 pub(crate) mod view;
 #[cfg(feature = "window")]
 pub(crate) mod window;

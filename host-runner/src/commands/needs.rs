@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
-use scanray::{Needs, Resolution};
+use scanray::{Resolution, Stages};
 use serde::Serialize;
 
 use crate::console::print;
@@ -87,14 +87,14 @@ pub(crate) fn run(args: &NeedsArgs) -> Result<ExitCode, Failure> {
 
 fn tell<T: HostScalar>(
     args: &NeedsArgs,
-    needs: impl Fn(&scanray::Scene<'_, T>) -> Needs,
+    needs: impl Fn(&scanray::Scene<'_, T>) -> Stages,
 ) -> Result<(), Failure> {
     let settings = args.picture.settings()?;
     let source = SceneSource::named(args.scene.as_deref());
     let mut pools = T::pools();
     source.load(&mut pools)?;
     let scene = pools.as_scene();
-    let Resolution { width, .. } = settings.resolution(scene.resolution);
+    let Resolution { width, .. } = settings.resolution(scene.resolution());
     let memory = DeviceMemory::of(&scene, settings.max_depth);
     let needs = needs(&scene);
     let cutoff = settings.knobs.cutoff;

@@ -102,7 +102,7 @@ fn tell<T: HostScalar>(args: &PixelArgs, settings: &PictureSettings) -> Result<(
     let mut pools = T::pools();
     source.load_text(&text, &mut pools)?;
     let scene = pools.as_scene();
-    let size = settings.resolution(scene.resolution);
+    let size = settings.resolution(scene.resolution());
     for PixelPlace { x, y } in &args.pixels {
         let Resolution { width, height } = size;
         if *x >= width || *y >= height {

@@ -155,7 +155,7 @@ fn show<T: HostScalar + Drawing>(
     let mut pools = T::pools();
     source.load(&mut pools)?;
     let scene: Scene<'_, T> = pools.as_scene();
-    let resolution = settings.resolution(scene.resolution);
+    let resolution = settings.resolution(scene.resolution());
     let tracer = HostTracer::new(scene, resolution, settings.max_depth)?.with_knobs(settings.knobs);
     let times = args.row_times(&tracer, resolution)?;
     let total: Duration = times.iter().sum();

@@ -18,7 +18,7 @@ use super::color_space::{Triple, lab_from_rgb, linear, rgb_from_ycxcz, ycxcz_fro
 use crate::image::Image;
 
 /// Pixels that one degree of the visual field covers: a 4K screen 0.7 m wide, seen from 0.7 m.
-pub(crate) const DEFAULT_PIXELS_PER_DEGREE: f32 = 0.7 * 3840.0 / 0.7 * std::f32::consts::PI / 180.0;
+pub const DEFAULT_PIXELS_PER_DEGREE: f32 = 0.7 * 3840.0 / 0.7 * std::f32::consts::PI / 180.0;
 
 /// Rows that are worked on at a time, so that memory has a bound.
 const BAND_ROWS: usize = 32;

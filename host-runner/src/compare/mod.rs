@@ -4,8 +4,8 @@ mod color_space;
 mod flip;
 mod picture;
 
-pub(crate) use flip::DEFAULT_PIXELS_PER_DEGREE;
-pub(crate) use picture::{flip_picture, level_legend, level_map, level_picture};
+pub use flip::DEFAULT_PIXELS_PER_DEGREE;
+pub use picture::{flip_picture, level_legend, level_map, level_picture};
 
 use crate::image::Image;
 
@@ -13,20 +13,20 @@ use crate::image::Image;
 ///
 /// Levels are those of 8 bits, 0 to 255. A pixel's difference is that of the channel that differs most.
 #[derive(Clone, Debug)]
-pub(crate) struct Comparison {
+pub struct Comparison {
     /// How many pixels differ by each number of levels.
     pixels_by_difference: Box<[u64; 256]>,
     /// The first of the pixels that differ most, as column and row.
     largest_at: [usize; 2],
     /// Root of the mean squared difference of all channels, in levels.
-    pub(crate) rmse: f64,
+    pub rmse: f64,
     /// The FLIP error of each pixel.
-    pub(crate) flip_map: Vec<f32>,
+    pub flip_map: Vec<f32>,
 }
 
 impl Comparison {
     /// Compares a picture with another, which must have its size.
-    pub(crate) fn of(reference: &Image, test: &Image, pixels_per_degree: f32) -> Self {
+    pub fn of(reference: &Image, test: &Image, pixels_per_degree: f32) -> Self {
         let mut pixels_by_difference = Box::new([0; 256]);
         let mut squares = 0_u64;
         let (mut largest, mut largest_at) = (0, 0);
@@ -47,19 +47,19 @@ impl Comparison {
     }
 
     /// Number of pixels.
-    pub(crate) fn pixels(&self) -> u64 {
+    pub fn pixels(&self) -> u64 {
         self.pixels_by_difference.iter().sum()
     }
 
     /// Pixels that differ by more levels.
-    pub(crate) fn pixels_beyond(&self, tolerance: u8) -> u64 {
+    pub fn pixels_beyond(&self, tolerance: u8) -> u64 {
         self.pixels_by_difference[usize::from(tolerance) + 1..]
             .iter()
             .sum()
     }
 
     /// The largest difference, in levels.
-    pub(crate) fn maximum(&self) -> u8 {
+    pub fn maximum(&self) -> u8 {
         (0..=u8::MAX)
             .rev()
             .find(|level| self.pixels_by_difference[usize::from(*level)] > 0)
@@ -67,17 +67,17 @@ impl Comparison {
     }
 
     /// Column and row of the first pixel that differs most, if any differs.
-    pub(crate) fn largest_at(&self) -> Option<[usize; 2]> {
+    pub fn largest_at(&self) -> Option<[usize; 2]> {
         (self.maximum() > 0).then_some(self.largest_at)
     }
 
     /// Peak signal-to-noise ratio in decibels, `20 log₁₀(255/RMSE)`; infinite for equal pictures.
-    pub(crate) fn psnr(&self) -> f64 {
+    pub fn psnr(&self) -> f64 {
         20.0 * (255.0 / self.rmse).log10()
     }
 
     /// The mean of the FLIP errors, 0 (look the same) to 1.
-    pub(crate) fn flip(&self) -> f64 {
+    pub fn flip(&self) -> f64 {
         let sum: f64 = self.flip_map.iter().map(|error| f64::from(*error)).sum();
         sum / self.flip_map.len() as f64
     }

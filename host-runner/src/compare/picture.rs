@@ -20,7 +20,7 @@ const LEGEND_HEIGHT: usize = 14;
 const ENTRY_WIDTH: usize = 62;
 
 /// What the colours of differences in levels stand for.
-pub(crate) fn level_legend() -> [(String, [u8; 3]); 8] {
+pub fn level_legend() -> [(String, [u8; 3]); 8] {
     std::array::from_fn(|class| {
         let label = match (1 << class, (2 << class) - 1) {
             (1, _) => "1 of 255".to_owned(),
@@ -32,7 +32,7 @@ pub(crate) fn level_legend() -> [(String, [u8; 3]); 8] {
 
 /// The differences in levels: where there is none the picture itself, grey and dark; elsewhere a colour
 /// for each power of 2.
-pub(crate) fn level_map(reference: &Image, test: &Image) -> Image {
+pub fn level_map(reference: &Image, test: &Image) -> Image {
     let legend = level_legend();
     let rows = reference.rgb888.chunks_exact(3);
     let pixels = rows.zip(level_differences(reference, test));
@@ -52,7 +52,7 @@ pub(crate) fn level_map(reference: &Image, test: &Image) -> Image {
 }
 
 /// The same with its legend.
-pub(crate) fn level_picture(reference: &Image, test: &Image) -> Image {
+pub fn level_picture(reference: &Image, test: &Image) -> Image {
     with_legend(
         reference,
         level_map(reference, test).rgb888,
@@ -61,7 +61,7 @@ pub(crate) fn level_picture(reference: &Image, test: &Image) -> Image {
 }
 
 /// The FLIP errors in the colours of its authors, from black (looks the same) to light yellow.
-pub(crate) fn flip_picture(reference: &Image, comparison: &Comparison) -> Image {
+pub fn flip_picture(reference: &Image, comparison: &Comparison) -> Image {
     let errors = comparison.flip_map.iter();
     let pixels = errors.flat_map(|error| color(MAGMA, f64::from(*error)));
     let entries: Vec<_> = [0.0, 0.2, 0.4, 0.6, 0.8, 1.0]

@@ -16,7 +16,7 @@ use super::table::{self, Rows};
 /// A core there are coefficients for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum Core {
+pub enum Core {
     /// Cortex-M4 with single-precision hardware
     M4f,
     /// Cortex-M3, floating point in software
@@ -27,10 +27,10 @@ pub(crate) enum Core {
 
 impl Core {
     /// All of them, the fastest first.
-    pub(crate) const ALL: [Self; 3] = [Self::M4f, Self::M3, Self::M0];
+    pub const ALL: [Self; 3] = [Self::M4f, Self::M3, Self::M0];
 
     /// As the tables name it.
-    pub(crate) fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::M4f => "M4F",
             Self::M3 => "M3",
@@ -47,12 +47,12 @@ impl fmt::Display for Core {
 
 /// What each thing takes: a name and a number for each of [`Core::ALL`].
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Model {
+pub struct Model {
     terms: Rows,
 }
 
 /// The model that is checked in.
-pub(crate) static MODEL: LazyLock<Model> = LazyLock::new(|| {
+pub static MODEL: LazyLock<Model> = LazyLock::new(|| {
     Model::parse(include_str!("instructions.txt")).unwrap_or_else(|| Model { terms: Vec::new() })
 });
 
@@ -62,7 +62,7 @@ impl Model {
     }
 
     /// Instructions a pixel on each core.
-    pub(crate) fn instructions_per_pixel(&self, work: &Work) -> [f64; Core::ALL.len()] {
+    pub fn instructions_per_pixel(&self, work: &Work) -> [f64; Core::ALL.len()] {
         Core::ALL.map(|core| self.sum(work, core))
     }
 

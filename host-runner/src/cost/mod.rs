@@ -1,12 +1,9 @@
-//! What a picture costs: the tracer's work, counted, and what it stands for on a microcontroller.
+//! What a picture costs: the tracer's work, counted, and the instructions it stands for on a microcontroller.
 
-mod cycles;
-mod emulation;
 mod instructions;
 mod table;
 mod work;
 
-pub(crate) use cycles::{Span, cycles};
-pub(crate) use emulation::{Counted, Emulator, Job};
-pub(crate) use instructions::{Core, MODEL};
-pub(crate) use work::{Circumstances, Counter, Work};
+pub use instructions::{Core, MODEL, Model};
+pub use table::{Rows, parse as parse_table};
+pub use work::{Circumstances, Counter, Work};

@@ -3,10 +3,10 @@
 use super::Core;
 
 /// Figures of each core, by name, in the order of the table.
-pub(super) type Rows = Vec<(String, [f64; Core::ALL.len()])>;
+pub type Rows = Vec<(String, [f64; Core::ALL.len()])>;
 
 /// Reads a table of a header, which names the cores, and a line for each name; `#` begins a comment.
-pub(super) fn parse(text: &str) -> Option<Rows> {
+pub fn parse(text: &str) -> Option<Rows> {
     let mut lines = text
         .lines()
         .filter(|line| !line.starts_with('#') && !line.trim().is_empty());

@@ -13,13 +13,13 @@ macro_rules! work {
     ($($(#[$doc:meta])* $name:ident,)*) => {
         /// What the tracer does, counted: what a picture's cost is made of.
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-        pub(crate) struct Work {
-            $($(#[$doc])* pub(crate) $name: u64,)*
+        pub struct Work {
+            $($(#[$doc])* pub $name: u64,)*
         }
 
         impl Work {
             /// Everything that is counted, by its name.
-            pub(crate) fn counts(&self) -> Vec<(&'static str, u64)> {
+            pub fn counts(&self) -> Vec<(&'static str, u64)> {
                 vec![$((stringify!($name), self.$name)),*]
             }
         }
@@ -131,35 +131,37 @@ work! {
 
 /// What a picture's work does not tell by itself.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Circumstances {
+pub struct Circumstances {
     /// Rows of samples that were begun.
-    pub(crate) scanlines: u64,
+    pub scanlines: u64,
     /// Spheres, planes and triangles of the scene.
-    pub(crate) objects: [u64; 3],
-    pub(crate) has_sky: bool,
+    pub objects: [u64; 3],
+    /// Whether rays that meet nothing see a gradient.
+    pub has_sky: bool,
     /// Whether there are secondary rays, if the depth allows it.
-    pub(crate) has_branches: bool,
-    pub(crate) has_cutoff: bool,
+    pub has_branches: bool,
+    /// Whether rays are cut off.
+    pub has_cutoff: bool,
     /// Pixels side by side in a block of one colour.
-    pub(crate) block: u64,
+    pub block: u64,
     /// Samples a pixel, or those of the pixels that differ from a neighbour.
-    pub(crate) samples: u64,
+    pub samples: u64,
     /// Whether pixels are compared with their neighbours.
-    pub(crate) is_adaptive: bool,
+    pub is_adaptive: bool,
 }
 
 impl Circumstances {
     /// Of a picture of a scene, begun by as many rows of samples.
-    pub(crate) fn of<T: Scalar>(scene: &Scene<'_, T>, scanlines: u64) -> Self {
+    pub fn of<T: Scalar>(scene: &Scene<'_, T>, scanlines: u64) -> Self {
         Self {
             scanlines,
             objects: [
-                scene.spheres.len() as u64,
-                scene.planes.len() as u64,
-                scene.triangles.len() as u64,
+                scene.spheres().len() as u64,
+                scene.planes().len() as u64,
+                scene.triangles().len() as u64,
             ],
-            has_sky: scene.background.sky,
-            has_branches: scene.materials.iter().any(|material| {
+            has_sky: scene.background().sky,
+            has_branches: scene.materials().iter().any(|material| {
                 let of = material.description();
                 of.reflection > T::ZERO || of.refraction > T::ZERO
             }),
@@ -173,7 +175,7 @@ impl Circumstances {
 
 impl Work {
     /// Counts what rows of a picture take: `trace` traces one, watched.
-    pub(crate) fn count<T: Scalar>(
+    pub fn count<T: Scalar>(
         width: u16,
         rows: Range<u16>,
         workers: &Workers,
@@ -192,13 +194,13 @@ impl Work {
     }
 
     /// One of [`Work::counts`].
-    pub(crate) fn count_of(&self, name: &str) -> Option<u64> {
+    pub fn count_of(&self, name: &str) -> Option<u64> {
         let counts = self.counts();
         counts.iter().find(|(n, _)| *n == name).map(|(_, c)| *c)
     }
 
     /// The same, with what follows from the circumstances.
-    pub(crate) fn under(self, circumstances: &Circumstances) -> Self {
+    pub fn under(self, circumstances: &Circumstances) -> Self {
         let Circumstances {
             scanlines,
             objects,
@@ -240,7 +242,7 @@ impl Work {
     }
 
     /// The same, shown with dither or without.
-    pub(crate) fn shown(self, is_dithered: bool) -> Self {
+    pub fn shown(self, is_dithered: bool) -> Self {
         Self {
             dithered_pixels: if is_dithered { self.pixels } else { 0 },
             ..self
@@ -248,18 +250,19 @@ impl Work {
     }
 
     /// Rays of all kinds.
-    pub(crate) fn rays(&self) -> u64 {
+    pub fn rays(&self) -> u64 {
         self.primary_rays + self.reflected_rays + self.refracted_rays + self.shadow_rays
     }
 
     /// Tests of all kinds.
-    pub(crate) fn tests(&self) -> u64 {
+    pub fn tests(&self) -> u64 {
         self.sphere_tests + self.plane_tests + self.triangle_tests + self.box_tests
     }
 }
 
 /// Counts while the tracer works.
-pub(crate) struct Counter<T> {
+#[derive(Debug)]
+pub struct Counter<T> {
     work: Work,
     /// The ray under way, shadow rays aside: the distance of the closest meeting so far, and its shape.
     closest: Option<(T, Shape)>,
@@ -267,13 +270,13 @@ pub(crate) struct Counter<T> {
     lighting: Lighting,
 }
 
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Lighting {
     is_colored: bool,
     is_glossy: bool,
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 enum Shape {
     Sphere,
     Plane,
@@ -282,7 +285,7 @@ enum Shape {
 
 impl<T: Scalar> Counter<T> {
     /// Nothing is counted yet.
-    pub(crate) fn new() -> Self {
+    pub fn new() -> Self {
         Self {
             work: Work::default(),
             closest: None,
@@ -291,7 +294,7 @@ impl<T: Scalar> Counter<T> {
     }
 
     /// What was counted for as many pixels.
-    pub(crate) fn finish(self, pixels: u64) -> Work {
+    pub fn finish(self, pixels: u64) -> Work {
         Work {
             pixels,
             ..self.work
@@ -341,6 +344,8 @@ impl<T: Scalar> Observer<T> for Counter<T> {
                 let t = triangle.intersect(ray, t_max).map(|(t, _)| t);
                 (Shape::Triangle, t)
             }
+            // The model knows no others.
+            _ => return,
         };
         if let Some(t) = t
             && self.closest.is_none_or(|(closest, _)| t <= closest)

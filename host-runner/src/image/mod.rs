@@ -14,7 +14,7 @@ use crate::failure::Failure;
 
 /// A kind of image file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ImageFormat {
+pub enum ImageFormat {
     /// Binary PPM (P6).
     Ppm,
     /// PNG with 8 bits a channel.
@@ -25,13 +25,13 @@ pub(crate) enum ImageFormat {
 
 impl ImageFormat {
     /// All there are.
-    pub(crate) const ALL: &[Self] = &[Self::Ppm, Self::Png, Self::Gif];
+    pub const ALL: &[Self] = &[Self::Ppm, Self::Png, Self::Gif];
 
     /// Those that keep every colour.
-    pub(crate) const EXACT: &[Self] = &[Self::Ppm, Self::Png];
+    pub const EXACT: &[Self] = &[Self::Ppm, Self::Png];
 
     /// The extension of its files.
-    pub(crate) const fn extension(self) -> &'static str {
+    pub const fn extension(self) -> &'static str {
         match self {
             Self::Ppm => "ppm",
             Self::Png => "png",
@@ -40,7 +40,7 @@ impl ImageFormat {
     }
 
     /// The format that a file's extension stands for.
-    pub(crate) fn of(path: &Path) -> Option<Self> {
+    pub fn of(path: &Path) -> Option<Self> {
         let extension = path.extension()?;
         let mut formats = Self::ALL.iter().copied();
         formats.find(|format| extension.eq_ignore_ascii_case(format.extension()))
@@ -49,13 +49,13 @@ impl ImageFormat {
 
 /// A picture from a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Image {
+pub struct Image {
     /// Pixels in a row; at least 1.
-    pub(crate) width: usize,
+    pub width: usize,
     /// Rows; at least 1.
-    pub(crate) height: usize,
+    pub height: usize,
     /// Three bytes a pixel, rows from top to bottom.
-    pub(crate) rgb888: Vec<u8>,
+    pub rgb888: Vec<u8>,
 }
 
 /// No file is longer than this: no picture that is drawn here is (65,535² pixels would be), but nobody
@@ -71,7 +71,7 @@ impl Image {
     /// # Errors
     ///
     /// [`Failure::Files`].
-    pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
+    pub fn read(path: &Path) -> Result<Self, Failure> {
         let is_stdin = path.as_os_str() == "-";
         let name = if is_stdin {
             "<stdin>".into()
@@ -97,7 +97,7 @@ impl Image {
     /// # Errors
     ///
     /// A sentence.
-    pub(crate) fn decode(bytes: &[u8]) -> Result<Self, String> {
+    pub fn decode(bytes: &[u8]) -> Result<Self, String> {
         match bytes {
             [0x89, b'P', b'N', b'G', ..] => png::read(bytes),
             [b'P', b'2' | b'3' | b'5' | b'6', ..] => ppm::read(bytes),
@@ -108,7 +108,7 @@ impl Image {
 }
 
 /// The comment that [`write`] has put into a file.
-pub(crate) fn comment(file: &[u8]) -> Option<String> {
+pub fn comment(file: &[u8]) -> Option<String> {
     match file {
         [0x89, b'P', b'N', b'G', ..] => png::comment(file),
         _ => ppm::comment(file),
@@ -121,7 +121,7 @@ pub(crate) fn comment(file: &[u8]) -> Option<String> {
 /// # Errors
 ///
 /// Those of `file`, and a shortage of memory.
-pub(crate) fn write(
+pub fn write(
     format: ImageFormat,
     file: &mut dyn Write,
     [width, height]: [u16; 2],
@@ -144,11 +144,7 @@ pub(crate) fn write(
 /// # Errors
 ///
 /// Those of `file`.
-pub(crate) fn write_whole(
-    format: ImageFormat,
-    file: &mut dyn Write,
-    image: &Image,
-) -> io::Result<()> {
+pub fn write_whole(format: ImageFormat, file: &mut dyn Write, image: &Image) -> io::Result<()> {
     let size = [image.width, image.height].map(u16::try_from);
     let [Ok(width), Ok(height)] = size else {
         return Err(io::Error::other("it would be larger than 65535 pixels"));

@@ -103,7 +103,12 @@ impl Lanes {
         if self.is_run {
             load(simd, column, self.rays[0] as usize)
         } else {
-            Numbers::simd_from(simd, self.rays.map(|ray| column[ray as usize]))
+            // Not `map`, which may be left outside.
+            let mut numbers = [0.0; LANES];
+            for (number, ray) in numbers.iter_mut().zip(&self.rays) {
+                *number = column[*ray as usize];
+            }
+            Numbers::simd_from(simd, numbers)
         }
     }
 }
@@ -283,7 +288,10 @@ impl Batch {
     /// The lanes that a light of a number below 32 reaches.
     #[inline(always)]
     pub(super) fn lit<S: Simd>(&self, simd: S, lanes: &Lanes, light: usize) -> Mask<S> {
-        let lit = lanes.rays.map(|ray| self.lit[ray as usize] >> light & 1);
+        let mut lit = [0; LANES];
+        for (lit, ray) in lit.iter_mut().zip(&lanes.rays) {
+            *lit = self.lit[*ray as usize] >> light & 1;
+        }
         Indices::simd_from(simd, lit).simd_eq(1)
     }
 

@@ -25,10 +25,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use fearless_simd::Level;
 use fearless_simd::prelude::*;
+use scanray::accel::Candidates;
 use scanray::shape::{Plane, Sphere, Surface, Triangle};
 use scanray::{
-    Background, Color, Material, Needs, Object, ObjectSet, Reach, Resolution, Scanline, Side,
-    Tracer,
+    Background, Color, Material, Object, ObjectSet, Resolution, Scanline, Side, Stages, Tracer,
 };
 
 use crate::host_tracer::SampleRow;
@@ -40,13 +40,15 @@ use tree::PacketTree;
 /// Traces eight rays at a time through a scene, which it has made lists of.
 #[derive(Debug)]
 pub(crate) struct PacketTracer<'a, const STACK: usize> {
-    tracer: Tracer<'a, f32, { Needs::ALL.union(Needs::TREE).bits() }, STACK>,
+    tracer: Tracer<'a, f32, { Stages::ALL.union(Stages::BVH).bits() }, STACK>,
     level: Level,
     spheres: Vec<Listed<'a, Sphere>>,
     planes: Vec<Listed<'a, Plane>>,
     triangles: Vec<Listed<'a, Triangle>>,
     /// All objects, in the order of their numbers.
     objects: Vec<Target<'a>>,
+    /// All shapes of the scene have lanes; otherwise the core draws it.
+    is_complete: bool,
     /// Of a large scene.
     tree: Option<PacketTree>,
     /// Of threads that do not trace at the moment.
@@ -77,7 +79,7 @@ struct Target<'a> {
     object: Object<'a>,
     material: Option<&'a Material>,
     /// Of its front and its back.
-    reach: [&'a Reach; 2],
+    reach: [&'a Candidates; 2],
     /// What rays can meet that leave them in any direction: those of a vector have several.
     near: [ObjectSet; 2],
 }
@@ -85,22 +87,30 @@ struct Target<'a> {
 impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
     /// A tracer of the same pictures.
     pub(crate) fn new(
-        tracer: Tracer<'a, f32, { Needs::ALL.union(Needs::TREE).bits() }, STACK>,
+        tracer: Tracer<'a, f32, { Stages::ALL.union(Stages::BVH).bits() }, STACK>,
     ) -> Self {
         let scene = *tracer.scene();
-        let material = |surface: Surface| scene.materials.get(surface.material as usize);
-        let reach = |side: Side| scene.sides.get(side.index()).unwrap_or(&Reach::ALL);
+        let material = |surface: Surface| scene.materials().get(surface.material as usize);
+        let reach = |side: Side| {
+            scene
+                .accel()
+                .sides()
+                .get(side.index())
+                .unwrap_or(&Candidates::ALL)
+        };
         let mut packets = Self {
             tracer,
             level: Level::new(),
-            spheres: Vec::with_capacity(scene.spheres.len()),
-            planes: Vec::with_capacity(scene.planes.len()),
-            triangles: Vec::with_capacity(scene.triangles.len()),
+            spheres: Vec::with_capacity(scene.spheres().len()),
+            planes: Vec::with_capacity(scene.planes().len()),
+            triangles: Vec::with_capacity(scene.triangles().len()),
             objects: Vec::with_capacity(scene.object_count()),
+            is_complete: true,
             tree: None,
             idle: Mutex::default(),
         };
-        for (index, object) in (0..).zip(scene.objects()) {
+        let objects = (0..scene.object_count()).filter_map(|index| scene.object(index));
+        for (index, object) in (0..).zip(objects) {
             let surface = object.surface();
             let casts_shadow = material(surface).is_none_or(Material::casts_shadow);
             macro_rules! list {
@@ -116,16 +126,19 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
                 Object::Sphere(sphere) => list!(spheres, sphere),
                 Object::Plane(plane) => list!(planes, plane),
                 Object::Triangle(triangle) => list!(triangles, triangle),
+                _ => packets.is_complete = false,
             }
-            let sides = [true, false].map(|front| reach(Side::new(surface.number, front)));
+            let sides = [true, false].map(|front| reach(Side::new(index, front)));
             packets.objects.push(Target {
                 object,
                 material: material(surface),
                 reach: sides,
-                near: sides.map(Reach::near_in_any_direction),
+                near: sides.map(Candidates::near_in_any_direction),
             });
         }
-        packets.tree = PacketTree::new(&packets, tree::FEWEST_FOR_SINGLES);
+        if packets.is_complete {
+            packets.tree = PacketTree::new(&packets, tree::FEWEST_FOR_SINGLES);
+        }
         packets
     }
 
@@ -147,7 +160,9 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
     /// The linear colours at a place in pixels of a row: those of `Tracer::sample_observed`.
     pub(crate) fn sample_row(&self, places: SampleRow, colors: &mut [Color]) {
         let scene = self.tracer.scene();
-        if scene.tree.is_some() && (self.tree.is_none() || scene.lights.len() > MOST_LIGHTS) {
+        let is_tree_missing = scene.accel().bvh().is_some()
+            && (self.tree.is_none() || scene.lights().len() > MOST_LIGHTS);
+        if !self.is_complete || is_tree_missing {
             return self.row_by_core(places, colors);
         }
         #[cfg(target_arch = "x86_64")]
@@ -211,7 +226,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
         colors: &mut [Color],
     ) {
         let Resolution { width, height } = self.tracer.resolution();
-        let origin = Vec3s::splat(simd, self.tracer.scene().camera.position);
+        let origin = Vec3s::splat(simd, self.tracer.scene().camera().position);
         let batch = &mut batches[0];
         for at in (0..colors.len()).step_by(LANES) {
             // `Camera::ray_at`.
@@ -368,7 +383,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
     /// `Tracer::background`.
     #[inline(always)]
     fn background<S: Simd>(&self, simd: S, direction: Vec3s<S>) -> Colors<S> {
-        let Background { color, sky } = self.tracer.scene().background;
+        let Background { color, sky } = self.tracer.scene().background();
         if sky {
             let s = (direction.y + 1.0) * 0.5;
             let white = Numbers::splat(simd, 1.0) - s;

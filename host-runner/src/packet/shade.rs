@@ -103,14 +103,14 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
         let valid = first_lanes(simd, of.count);
         let scene = self.tracer.scene();
         let description = material.description();
-        let mut color = splat(simd, description.ambient * scene.ambient);
+        let mut color = splat(simd, description.ambient * scene.ambient());
         let [front, back] = target.reach;
         let front_open = hits.entering & valid & Mask::splat(simd, !front.shadowed);
         let back_open = !hits.entering & valid & Mask::splat(simd, !back.shadowed);
         if !(front_open | back_open).any_true() {
             return color;
         }
-        for (number, light) in scene.lights.iter().enumerate() {
+        for (number, light) in scene.lights().iter().enumerate() {
             let to_light = Vec3s::splat(simd, light.position) - hits.outside;
             let toward = hits.normal.dot(to_light);
             let distance_squared = to_light.dot(to_light);
@@ -257,6 +257,7 @@ pub(super) fn hits<S: Simd>(
             let point = v1 * at_v1 + v2 * at_v2 + v3 * at_v3;
             (point, normal, offset)
         }
+        _ => unreachable!("scenes of other shapes are drawn by the core"),
     };
     let slope = normal.dot(rays.direction);
     let entering = slope.simd_le(0.0);

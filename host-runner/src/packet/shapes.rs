@@ -1,8 +1,8 @@
 //! Eight rays against one object: `intersect` and `occludes` of the core's shapes, lane by lane.
 
 use fearless_simd::prelude::*;
+use scanray::Vec3;
 use scanray::shape::{Plane, Triangle};
-use scanray::{Scalar, Vec3};
 
 use super::lanes::{Mask, Numbers, Rays, Vec3s};
 
@@ -199,7 +199,7 @@ fn product_error<S: Simd>(a: Numbers<S>, b: Numbers<S>) -> Numbers<S> {
 
 #[inline(always)]
 fn split<S: Simd>(x: Numbers<S>) -> (Numbers<S>, Numbers<S>) {
-    let scaled = x * f32::SPLITTER;
+    let scaled = x * <f32 as scanray::Number>::SPLIT as f32;
     let high = scaled - (scaled - x);
     (high, x - high)
 }

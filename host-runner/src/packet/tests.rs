@@ -7,7 +7,7 @@ use fearless_simd::Level;
 use scanray::shape::{Sphere, Surface};
 use scanray::{
     Background, Camera, Color, Light, Material, MaterialDescription, Resolution, Scene, SceneError,
-    ScenePools, Subpixel, Supersampled, Tracer, Tree, Vec3,
+    ScenePools, Subpixel, Supersampled, Tracer, Vec3,
 };
 
 use super::PacketTracer;
@@ -61,7 +61,7 @@ pub(super) fn assert_same_as(
 ) {
     let [tracer, core] = [scene, of_core].map(|scene| {
         Tracer::new(scene)
-            .with_tree()
+            .with_bvh()
             .with_stack::<STACK>()
             .with_resolution(resolution)
             .with_max_depth(max_depth)
@@ -142,7 +142,7 @@ fn draws_whole_pictures_to_the_bit() {
 fn draws_parts_of_rows() {
     let pools = load("default");
     let tracer = Tracer::new(pools.as_scene())
-        .with_tree()
+        .with_bvh()
         .with_stack::<STACK>();
     let packets = PacketTracer::new(tracer);
     let mut part = [Color::default(); 13];
@@ -157,7 +157,7 @@ fn draws_parts_of_rows() {
 fn draws_places_beside_the_centres_of_some_columns() {
     let pools = load("default");
     let tracer = Tracer::new(pools.as_scene())
-        .with_tree()
+        .with_bvh()
         .with_stack::<STACK>()
         .with_resolution(Resolution {
             width: 61,
@@ -185,7 +185,7 @@ fn draws_places_beside_the_centres_of_some_columns() {
 fn draws_a_picture_from_several_threads() {
     let pools = load("reflective");
     let tracer = Tracer::new(pools.as_scene())
-        .with_tree()
+        .with_bvh()
         .with_stack::<STACK>()
         .with_resolution(Resolution {
             width: 64,
@@ -242,7 +242,7 @@ fn draws_random_scenes_with_a_tree_to_the_bit() {
         random.fill(&mut pools);
         random.crowd(&mut pools);
         pools.prepare();
-        trees += u64::from(pools.as_scene().tree.is_some());
+        trees += u64::from(pools.as_scene().accel().bvh().is_some());
         let (width, height) = (1 + random.below(40), 1 + random.below(9));
         let max_depth = random.pick(&[0, 1, 3]);
         let name = format!("random crowd of seed {seed}");
@@ -274,26 +274,16 @@ fn draws_objects_without_material_and_with_any_numbers() {
         specular: Color::new(1.0, 1.0, 1.0),
         diffuse: Color::new(1.0, 1.0, 1.0),
     };
-    let scene = Scene {
-        camera: Camera::default(),
-        resolution: Resolution {
-            width: 0,
-            height: 0,
-        },
-        ambient: 0.5,
-        background: Background {
+    let lights = [light];
+    let scene = Scene::EMPTY
+        .with_ambient(0.5)
+        .with_background(Background {
             color: Color::new(0.1, 2.0, 0.3),
             sky: false,
-        },
-        lights: &[light],
-        spheres: &spheres,
-        planes: &[],
-        triangles: &[],
-        materials: &materials,
-        sides: &[],
-        zones: &[],
-        tree: Tree::NONE,
-    };
+        })
+        .with_lights(&lights)
+        .with_spheres(&spheres)
+        .with_materials(&materials);
     assert_same("without material", scene, 33, 21, 5);
 }
 

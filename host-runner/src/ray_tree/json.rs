@@ -224,7 +224,7 @@ impl HitReport {
             t: number(hit.t),
             point: vector(hit.point),
             normal: vector(hit.normal),
-            ambient: color(hit.material.ambient * names.scene.ambient),
+            ambient: color(hit.material.ambient * names.scene.ambient()),
             lights: hit
                 .lights
                 .iter()

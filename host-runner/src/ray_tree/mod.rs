@@ -118,7 +118,7 @@ impl<T: Scalar> Observer<T> for RayTree<T> {
     fn meeting(&mut self, meeting: &Meeting<'_, T>) {
         if let Some(node) = self.open.last_mut() {
             node.hit = Some(HitNode {
-                object: meeting.side.object(),
+                object: meeting.number,
                 front: meeting.side.is_front(),
                 t: meeting.t,
                 point: meeting.point,
@@ -217,7 +217,7 @@ mod tests {
         let Some(hit) = &node.hit else {
             return node.result;
         };
-        let mut local = hit.material.ambient * scene.ambient;
+        let mut local = hit.material.ambient * scene.ambient();
         for light in &hit.lights {
             if let LightAtHit::Reaches { diffuse, specular } = light.at_hit {
                 local = local + diffuse;
@@ -260,12 +260,13 @@ mod tests {
             }
             counts[3] += 1;
             let ray = light.shadow_ray.unwrap();
-            let distance = scene.lights[0].position - ray.origin;
+            let distance = scene.lights()[0].position - ray.origin;
             let distance = distance.dot(distance).sqrt();
             assert!(match objects[blocker as usize] {
                 Object::Sphere(sphere) => sphere.occludes(&ray, distance),
                 Object::Plane(plane) => plane.occludes(&ray, distance),
                 Object::Triangle(triangle) => triangle.occludes(&ray, distance),
+                _ => unreachable!(),
             });
         }
         let at_most = usize::from(node.depth < 5);

@@ -21,13 +21,10 @@ pub(crate) struct Names<'a, T> {
 impl<T: Scalar> Names<'_, T> {
     /// The kind of an object.
     pub(super) fn kind(&self, number: ObjectNumber) -> &'static str {
-        let is = |object: scanray::Object<'_, T>| object.surface().number == number;
-        match self.scene.objects().find(|object| is(*object)) {
-            Some(scanray::Object::Sphere(_)) => "sphere",
-            Some(scanray::Object::Plane(_)) => "plane",
-            Some(scanray::Object::Triangle(_)) => "triangle",
-            None => "object",
-        }
+        let mut objects = self.scene.objects();
+        objects
+            .find(|object| object.surface().number == number)
+            .map_or("object", |object| object.kind().name())
     }
 
     /// The line of an object.
@@ -75,7 +72,7 @@ pub(crate) fn write_rays<T: Scalar>(
     line("origin", &vector(node.ray.origin))?;
     line("direction", &vector(node.ray.direction))?;
     let Some(hit) = &node.hit else {
-        let sky = names.scene.background.sky;
+        let sky = names.scene.background().sky;
         let what = if sky {
             "nothing: the sky"
         } else {
@@ -102,7 +99,7 @@ pub(crate) fn write_rays<T: Scalar>(
     line("normal", &vector(hit.normal))?;
     line(
         "ambient",
-        &color_digits(hit.material.ambient * names.scene.ambient),
+        &color_digits(hit.material.ambient * names.scene.ambient()),
     )?;
     if hit.lights.is_empty() {
         line("light", &"none in the scene that shows on this material")?;

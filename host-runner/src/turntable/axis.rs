@@ -20,7 +20,7 @@ const STEPS: u16 = 360;
 /// In a closed room there may be no such axis: then it is the middle. `None` if only the background is seen.
 pub(crate) fn default_axis<T: Scalar>(scene: Scene<'_, T>) -> Option<Axis> {
     let middle = axis_in_view(scene)?;
-    let camera = scene.camera.position;
+    let camera = scene.camera().position;
     let at = |percent: i32| {
         let between = |from: T, to: f64| {
             let from = from.to_f64();
@@ -52,8 +52,8 @@ pub(crate) fn default_axis<T: Scalar>(scene: Scene<'_, T>) -> Option<Axis> {
 ///
 /// It is the picture in the scene's own size that counts, so that the axis is the scene's, whatever is drawn of it.
 fn axis_in_view<T: Scalar>(scene: Scene<'_, T>) -> Option<Axis> {
-    let resolution = scene.resolution;
-    let tracer = Tracer::new(scene).with_tree();
+    let resolution = scene.resolution();
+    let tracer = Tracer::new(scene).with_bvh();
     let (mut bodies, mut floors) = (Vec::new(), Vec::new());
     let probes = |length: u16, count: u16| {
         let count = count.min(length);
@@ -72,8 +72,8 @@ fn axis_in_view<T: Scalar>(scene: Scene<'_, T>) -> Option<Axis> {
             let place = ray.at(nearest.t);
             match nearest.object {
                 Object::Sphere(sphere) => bodies.push(sphere.center()),
-                Object::Triangle(_) => bodies.push(place),
                 Object::Plane(_) => floors.push(place),
+                _ => bodies.push(place),
             }
         }
     }

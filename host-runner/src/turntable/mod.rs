@@ -12,8 +12,9 @@ mod path;
 
 use std::f64::consts::FRAC_PI_2;
 
+use scanray::shape::{Shape, Transform};
 use scanray::{
-    Background, Camera, Light, MaterialDescription, Object, PoolsMut, Resolution, Scalar, Scene,
+    Background, Camera, Light, MaterialDescription, PoolsMut, Resolution, Scalar, Scene,
     SceneError, Vec3,
 };
 
@@ -40,40 +41,21 @@ pub(crate) struct Turntable<T> {
     objects: Vec<(Shape<T>, MaterialDescription<T>)>,
 }
 
-/// What an object is made from.
-#[derive(Clone, Copy, Debug)]
-enum Shape<T> {
-    Sphere { center: Vec3<T>, radius: T },
-    Plane { normal: Vec3<T>, height: T },
-    Triangle([Vec3<T>; 3]),
-}
-
 impl<T: Scalar> Turntable<T> {
     /// A turntable of as many steps, at least 1, about an axis.
     pub(crate) fn new(scene: &Scene<'_, T>, steps: u16, axis: Axis) -> Self {
-        let object = |object: Object<'_, T>| {
-            let shape = match object {
-                Object::Sphere(sphere) => Shape::Sphere {
-                    center: sphere.center(),
-                    radius: sphere.radius(),
-                },
-                Object::Plane(plane) => Shape::Plane {
-                    normal: plane.normal(),
-                    height: plane.height(),
-                },
-                Object::Triangle(triangle) => Shape::Triangle(triangle.vertices()),
-            };
-            (shape, scene.material(object.surface()))
-        };
         Self {
             steps,
             axis,
-            camera: scene.camera,
-            resolution: scene.resolution,
-            ambient: scene.ambient,
-            background: scene.background,
-            lights: scene.lights.to_vec(),
-            objects: scene.objects().map(object).collect(),
+            camera: scene.camera(),
+            resolution: scene.resolution(),
+            ambient: scene.ambient(),
+            background: scene.background(),
+            lights: scene.lights().to_vec(),
+            objects: scene
+                .objects()
+                .map(|object| (object.shape(), scene.material(object.surface())))
+                .collect(),
         }
     }
 
@@ -96,18 +78,7 @@ impl<T: Scalar> Turntable<T> {
             })?;
         }
         for (shape, material) in &self.objects {
-            match *shape {
-                Shape::Sphere { center, radius } => {
-                    pools.add_sphere(turn.point(center), radius, *material)?;
-                }
-                Shape::Plane { normal, height } => {
-                    let (normal, distance) = turn.plane(normal, height);
-                    pools.add_plane(normal, distance, *material)?;
-                }
-                Shape::Triangle(vertices) => {
-                    pools.add_triangle(vertices.map(|vertex| turn.point(vertex)), *material)?;
-                }
-            }
+            pools.add(shape.transformed(&turn), *material)?;
         }
         pools.prepare();
         Ok(())
@@ -141,23 +112,33 @@ impl Turn {
     fn direction(&self, x: f64, z: f64) -> (f64, f64) {
         (x * self.cos + z * self.sin, z * self.cos - x * self.sin)
     }
+}
 
-    fn point<T: Scalar>(&self, point: Vec3<T>) -> Vec3<T> {
+impl<T: Scalar> Transform<T> for Turn {
+    fn point(&self, point: Vec3<T>) -> Vec3<T> {
         let Axis { x, z } = self.axis;
         let (right, ahead) = self.direction(point.x.to_f64() - x, point.z.to_f64() - z);
         Vec3::new(T::from_f64(right + x), point.y, T::from_f64(ahead + z))
     }
 
-    /// The turned normal of a plane of the points with `normal·p = height`, and its distance.
-    fn plane<T: Scalar>(&self, normal: Vec3<T>, height: T) -> (Vec3<T>, T) {
+    fn normal(&self, normal: Vec3<T>) -> Vec3<T> {
+        let (right, ahead) = self.direction(normal.x.to_f64(), normal.z.to_f64());
+        Vec3::new(T::from_f64(right), normal.y, T::from_f64(ahead))
+    }
+
+    fn length(&self, length: T) -> T {
+        length
+    }
+
+    fn plane(&self, normal: Vec3<T>, distance: T) -> (Vec3<T>, T) {
         let Axis { x, z } = self.axis;
         let (right, ahead) = self.direction(normal.x.to_f64(), normal.z.to_f64());
         // The axis keeps its distance from the plane.
         let before = normal.x.to_f64() * x + normal.z.to_f64() * z;
         let after = right * x + ahead * z;
         (
-            Vec3::new(T::from_f64(right), normal.y, T::from_f64(ahead)),
-            T::from_f64(before - after - height.to_f64()),
+            self.normal(normal),
+            T::from_f64(before - after + distance.to_f64()),
         )
     }
 }
@@ -185,7 +166,7 @@ mod tests {
         let normal = Vec3::new(0.6_f64, 0.48, 0.64);
         for step in 0..12 {
             let turn = Turn::of(AXIS, step, 12);
-            let (turned, distance) = turn.plane(normal, 2.0);
+            let (turned, distance) = turn.plane(normal, -2.0);
             assert!((turned.dot(turned) - 1.0).abs() < 1e-15);
             // Three points of the plane.
             for (x, y) in [(0.0, 0.0), (5.0, -3.0), (-2.0, 40.0)] {

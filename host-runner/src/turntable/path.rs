@@ -1,5 +1,6 @@
 //! What the camera meets on its way around a scene.
 
+use scanray::shape::Transform;
 use scanray::{ObjectNumber, Ray, Scalar, Scene, Tracer};
 
 use super::{Axis, Turn};
@@ -17,13 +18,13 @@ const CHORDS: u16 = 360;
 /// The surfaces that the camera passes through in one turn of as many steps about an axis, in order. Each object counts
 /// once between two steps.
 pub(crate) fn crossings<T: Scalar>(scene: Scene<'_, T>, steps: u16, axis: Axis) -> Vec<Crossing> {
-    let tracer = Tracer::new(scene).with_tree();
+    let tracer = Tracer::new(scene).with_bvh();
     let chords_a_step = CHORDS.div_ceil(steps);
     let chords = u32::from(chords_a_step) * u32::from(steps);
     // While the scene stands, the camera goes round the other way than the scene turns. The first step is the last.
     let place = |chord: u32| {
         let turn = Turn::of(axis, chords - chord, chords);
-        turn.point(scene.camera.position)
+        turn.point(scene.camera().position)
     };
     let mut crossings: Vec<Crossing> = Vec::new();
     for chord in 0..chords {

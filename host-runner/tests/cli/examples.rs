@@ -37,16 +37,13 @@ fn furnished() -> Folder {
     let folder = Folder::new();
     folder.write("scene.txt", SMALL_SCENE);
     fs::create_dir(folder.path("scenes")).unwrap();
-    fs::create_dir(folder.path("pictures")).unwrap();
     for name in ["default", "pyramids"] {
         let text = fs::read_to_string(scene(name)).unwrap();
         // As small as a display.
         let text = text.replace("800 600", "80 60");
         folder.write(&format!("scenes/{name}.txt"), text);
     }
-    for name in ["old.png", "new.png", "new.ppm", "golden.png"] {
-        folder.succeed(&["render", "scene.txt", "-o", name]);
-    }
+    crate::furnish(&folder);
     folder
 }
 
@@ -74,7 +71,8 @@ fn every_example_of_every_command_works() {
         let examples = examples(&help);
         assert!(
             !examples.is_empty(),
-            "scanray {command} --help has no examples"
+            "{} {command} --help has no examples",
+            crate::NAME
         );
         for example in examples {
             let missing = OTHER_PROGRAMS

@@ -36,7 +36,7 @@ impl Folder {
 
     /// The program, to be run here.
     pub(crate) fn program(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_scanray"));
+        let mut command = Command::new(crate::PROGRAM);
         command.current_dir(self.0.path()).args(arguments);
         command
     }

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::ops::Range;
 
 use embedded_graphics::pixelcolor::Rgb888;
-use scanray::{DisplayColor, Picture, Quantizer, Resolution, Scene, Vec3};
+use scanray::{DisplayColor, Picture, Resolution, Scene, Vec3};
 
 use super::RenderArgs;
 use crate::canvas::Canvas;
@@ -68,7 +68,7 @@ impl Job<'_> {
                 still_draw(print(|out| scene_data::write(out, &scene)))?;
             }
         }
-        let resolution = self.settings.resolution(scene.resolution);
+        let resolution = self.settings.resolution(scene.resolution());
         let rows = RangeOption::within(
             args.rows,
             resolution.height,
@@ -208,7 +208,7 @@ impl Job<'_> {
                 lines.join(", ")
             )
         });
-        let Vec3 { x, z, .. } = scene.camera.position;
+        let Vec3 { x, z, .. } = scene.camera().position;
         say(format_args!(
             "warning: {}: the camera passes through objects: {}. Turn about another axis, or on the spot: \
              --about {x},{z}",
@@ -377,38 +377,42 @@ impl<T: HostScalar + Drawing> Studio<'_, T> {
         Ok(bytes)
     }
 
-    fn draw_in_color<C: DisplayColor + Into<Rgb888> + Send + Sync>(
+    fn draw_in_color<C: DisplayColor + Into<Rgb888> + Send + Sync + 'static>(
         &self,
         job: &Job<'_>,
         pixels: &HostPixels<'_, T>,
         report: &mut RenderReport,
         consume: &mut Consume<'_>,
     ) -> Result<u64, Unwritten> {
-        let picture = Picture::new(pixels);
-        if job.settings.dither {
-            self.draw_picture::<scanray::Dithered<C>>(job, picture.dithered(), report, consume)
+        let picture: Picture<_, scanray::Exact<C>> = Picture::new(pixels);
+        let (rows, workers, progress) = (self.rows.clone(), job.workers, &self.progress);
+        let parts = if job.settings.dither {
+            Parts::new(picture.dithered(), rows, workers, progress)
         } else {
-            self.draw_picture::<scanray::Exact<C>>(job, picture, report, consume)
-        }
+            Parts::new(picture, rows, workers, progress)
+        };
+        draw_picture(
+            [self.resolution.width, self.rows.len() as u16],
+            parts?,
+            report,
+            consume,
+        )
     }
+}
 
-    /// Draws and writes the picture. Small ones are complete before their file is begun.
-    fn draw_picture<Q: Quantizer<Color: DisplayColor + Into<Rgb888> + Send> + Sync>(
-        &self,
-        job: &Job<'_>,
-        picture: Picture<&HostPixels<'_, T>, Q>,
-        report: &mut RenderReport,
-        consume: &mut Consume<'_>,
-    ) -> Result<u64, Unwritten> {
-        let size = [self.resolution.width, self.rows.len() as u16];
-        let mut parts = Parts::new(picture, self.rows.clone(), job.workers, &self.progress)?;
-        let first = parts.next();
-        let canvases = first.into_iter().chain(&mut parts);
-        let bytes = consume(size, &mut canvases.flat_map(Canvas::into_rows_rgb888))?;
-        report.seconds += parts.time().as_secs_f64();
-        report.cpu_seconds += parts.cpu_time().as_secs_f64();
-        Ok(bytes)
-    }
+/// Draws and writes a picture. Small ones are complete before their file is begun.
+fn draw_picture(
+    size: [u16; 2],
+    mut parts: Parts<'_>,
+    report: &mut RenderReport,
+    consume: &mut Consume<'_>,
+) -> Result<u64, Unwritten> {
+    let first = parts.next();
+    let canvases = first.into_iter().chain(&mut parts);
+    let bytes = consume(size, &mut canvases.flat_map(Canvas::into_rows_rgb888))?;
+    report.seconds += parts.time().as_secs_f64();
+    report.cpu_seconds += parts.cpu_time().as_secs_f64();
+    Ok(bytes)
 }
 
 /// A reader that has read enough of the listing or of the JSON does not end the drawing: the pictures go

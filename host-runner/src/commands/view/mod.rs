@@ -15,14 +15,10 @@ use std::time::{Duration, Instant};
 use annotate_snippets::Renderer;
 use clap::Args;
 use crossterm::event::{self, Event, KeyCode, KeyEventKind, KeyModifiers};
-use embedded_graphics::pixelcolor::Rgb888;
-use scanray::{
-    Budget, Color, DisplayColor, Picture, PixelSource, Progress, Progressive, Quantizer,
-    Resolution, Scalar, Scene,
-};
+use scanray::{Budget, Color, Dithered, Exact, Picture, Progress, Progressive, Resolution, Scene};
 
 use self::cells::filling;
-use self::screen::{Pixels, Screen};
+use self::screen::{Linear, Pixels, Screen, Shown, shown};
 use self::terminal::{FullScreen, Output};
 use self::watch::Watch;
 use crate::console::print;
@@ -112,28 +108,19 @@ fn draw<T: HostScalar + Drawing>(
         height: pixels.height as u16,
     };
     let tracer = HostTracer::new(scene, resolution, settings.max_depth)?.with_knobs(settings.knobs);
-    with_color!(settings.color, C => {
-        let mut screen = Screen::<C>::new(pixels);
-        let picture = Picture::<_, scanray::Exact<C>>::new(&tracer);
-        if settings.dither {
-            draw_progressively(picture.dithered(), &mut screen, look)
-        } else {
-            draw_progressively(picture, &mut screen, look)
-        }
-    })
-}
-
-fn draw_progressively<P: PixelSource, Q: Quantizer<Color: DisplayColor + Into<Rgb888>>>(
-    picture: Picture<P, Q>,
-    screen: &mut Screen<'_, Q::Color>,
-    look: &mut dyn FnMut(&Pixels) -> Result<Option<Stop>, Failure>,
-) -> Result<Option<Stop>, Failure> {
+    let shown: Shown = with_color!(settings.color, C => if settings.dither {
+        shown::<T, Dithered<C>>
+    } else {
+        shown::<T, Exact<C>>
+    });
+    let mut screen = Screen::new(pixels, shown);
+    let picture = Picture::<_, Exact<Linear>>::new(&tracer);
     let mut progressive = Progressive::of(&picture);
-    let black = Color::<P::Scalar>::new(P::Scalar::ZERO, P::Scalar::ZERO, P::Scalar::ZERO);
+    let black = Color::<T>::new(T::ZERO, T::ZERO, T::ZERO);
     let mut row = vec![black; usize::from(picture.resolution().width)];
     let mut looked = Instant::now();
     loop {
-        let Ok(progress) = progressive.draw(&picture, screen, &mut row, INSTALMENT);
+        let Ok(progress) = progressive.draw(&picture, &mut screen, &mut row, INSTALMENT);
         if progress == Progress::Done {
             return Ok(None);
         }
@@ -184,7 +171,12 @@ fn show<T: HostScalar + Drawing>(
     let scene = pools.as_scene();
     let output = Output::new();
     // The line below the picture is the next prompt's.
-    let (size, shown) = sizes(settings, scene.resolution, output.columns, output.lines - 1);
+    let (size, shown) = sizes(
+        settings,
+        scene.resolution(),
+        output.columns,
+        output.lines - 1,
+    );
     let mut pixels = Pixels::new(size)?;
     let mut lines_above = 0;
     let mut write = |pixels: &Pixels| {
@@ -303,7 +295,7 @@ impl Session<'_> {
         let scene = pools.as_scene();
         let (size, shown) = sizes(
             self.settings,
-            scene.resolution,
+            scene.resolution(),
             self.output.columns,
             self.output.lines.saturating_sub(1).max(1),
         );

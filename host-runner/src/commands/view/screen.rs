@@ -1,12 +1,11 @@
 //! The picture under way, as a display that can be looked at while it is drawn on.
 
 use std::convert::Infallible;
-use std::marker::PhantomData;
 
 use embedded_graphics::Pixel;
 use embedded_graphics::pixelcolor::Rgb888;
 use embedded_graphics::prelude::*;
-use scanray::Resolution;
+use scanray::{Color, DisplayColor, Quantizer, Resolution, Scalar};
 
 use crate::memory::{Shortage, room};
 
@@ -19,11 +18,42 @@ pub(super) struct Pixels {
     pub(super) rgb: Vec<[u8; 3]>,
 }
 
-/// Pixels that pictures in a display's colours can be drawn on.
+/// Pixels that linear colours can be drawn on, and how a display shows them.
 #[derive(Debug)]
-pub(super) struct Screen<'p, C> {
+pub(super) struct Screen<'p> {
     pixels: &'p mut Pixels,
-    color: PhantomData<C>,
+    shown: Shown,
+}
+
+/// What a display shows of a linear colour at a place.
+pub(super) type Shown = fn(Linear, u16, u16) -> [u8; 3];
+
+/// [`Shown`] for a scalar and a way to a display's colour.
+pub(super) fn shown<T: Scalar, Q: Quantizer<Color: Into<Rgb888>>>(
+    Linear(linear): Linear,
+    x: u16,
+    y: u16,
+) -> [u8; 3] {
+    // As `f64` a number of either scalar is itself.
+    let [r, g, b] = linear.map(T::from_f64);
+    let color: Rgb888 = Q::quantize(Color::new(r, g, b), x, y).into();
+    [color.r(), color.g(), color.b()]
+}
+
+/// A linear colour on its way to a [`Screen`]: drawing is compiled once, not once more for each kind of display.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Linear([f64; 3]);
+
+impl PixelColor for Linear {
+    type Raw = ();
+}
+
+impl DisplayColor for Linear {
+    const LEVEL: f32 = 0.0;
+
+    fn from_linear<T: Scalar>(color: Color<T>, _: T) -> Self {
+        Linear([color.r, color.g, color.b].map(T::to_f64))
+    }
 }
 
 impl Pixels {
@@ -72,12 +102,9 @@ impl Pixels {
     }
 }
 
-impl<'p, C> Screen<'p, C> {
-    pub(super) fn new(pixels: &'p mut Pixels) -> Self {
-        Self {
-            pixels,
-            color: PhantomData,
-        }
+impl<'p> Screen<'p> {
+    pub(super) fn new(pixels: &'p mut Pixels, shown: Shown) -> Self {
+        Self { pixels, shown }
     }
 
     pub(super) fn pixels(&self) -> &Pixels {
@@ -85,23 +112,25 @@ impl<'p, C> Screen<'p, C> {
     }
 }
 
-impl<C> OriginDimensions for Screen<'_, C> {
+impl OriginDimensions for Screen<'_> {
     fn size(&self) -> Size {
         Size::new(self.pixels.width as u32, self.pixels.height as u32)
     }
 }
 
-impl<C: PixelColor + Into<Rgb888>> DrawTarget for Screen<'_, C> {
-    type Color = C;
+impl DrawTarget for Screen<'_> {
+    type Color = Linear;
     type Error = Infallible;
 
-    fn draw_iter<I: IntoIterator<Item = Pixel<C>>>(&mut self, pixels: I) -> Result<(), Infallible> {
+    fn draw_iter<I: IntoIterator<Item = Pixel<Linear>>>(
+        &mut self,
+        pixels: I,
+    ) -> Result<(), Infallible> {
         let area = self.bounding_box();
         for Pixel(place, color) in pixels {
             if area.contains(place) {
-                let color: Rgb888 = color.into();
                 let index = place.y as usize * self.pixels.width + place.x as usize;
-                self.pixels.rgb[index] = [color.r(), color.g(), color.b()];
+                self.pixels.rgb[index] = (self.shown)(color, place.x as u16, place.y as u16);
             }
         }
         Ok(())

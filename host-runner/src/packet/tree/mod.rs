@@ -11,7 +11,8 @@ mod tests;
 mod wide;
 
 use fearless_simd::prelude::*;
-use scanray::{NodeContent, Tree, TreeEntry, TreeNode, Vec3};
+use scanray::Vec3;
+use scanray::accel::{Bvh, BvhNode, NodeContent};
 
 use self::single::Single;
 pub(super) use self::single::WaitingParts;
@@ -19,7 +20,7 @@ use self::wide::{WidePart, WideTree};
 use super::batch::{Batch, Group, NOTHING};
 use super::lanes::{Indices, LANES, Mask, Numbers, Rays, Vec3s, first_lanes};
 use super::shade::hits;
-use super::{Closest, Listed, PacketTracer, shapes};
+use super::{Closest, PacketTracer, shapes};
 
 /// The tree of a scene in other layouts.
 #[derive(Debug)]
@@ -89,8 +90,8 @@ impl PacketTree {
         packets: &PacketTracer<'_, STACK>,
         fewest_for_singles: usize,
     ) -> Option<Self> {
-        let tree = packets.tracer.scene().tree;
-        let is_small = |node: &TreeNode| match node.content() {
+        let tree = packets.tracer.scene().accel().bvh();
+        let is_small = |node: &BvhNode| match node.content() {
             NodeContent::Leaf { count, .. } => count as usize <= LANES,
             NodeContent::Inner { .. } => true,
         };
@@ -112,7 +113,7 @@ impl PairTree {
     /// leaf.
     fn new<const STACK: usize>(
         packets: &PacketTracer<'_, STACK>,
-        tree: Tree<'_>,
+        tree: Bvh<'_>,
     ) -> (Self, Vec<u32>) {
         let mut new = Self::default();
         let mut place_of = vec![0; tree.nodes.len()];
@@ -168,7 +169,7 @@ struct Walk<'a, S: Simd> {
     /// Whether most rays meet the upper one of two nodes first, by axis.
     upper_first: [usize; 3],
     /// What is still to be visited, the next one last.
-    waiting: [Waiting; Tree::<f32>::MAX_DEPTH + 1],
+    waiting: [Waiting; Bvh::<f32>::MAX_DEPTH + 1],
     len: usize,
 }
 
@@ -238,7 +239,7 @@ impl<'a, S: Simd> Walk<'a, S> {
                 first: tree.pairs.root.0,
                 count: tree.pairs.root.1,
                 rays: active.to_bitmask() as u8,
-            }; Tree::<f32>::MAX_DEPTH + 1],
+            }; Bvh::<f32>::MAX_DEPTH + 1],
             len: 1,
         }
     }
@@ -360,35 +361,29 @@ impl<S: Simd> Closest<S> {
 }
 
 impl<const STACK: usize> PacketTracer<'_, STACK> {
-    fn leaf_object(&self, entry: TreeEntry) -> LeafObject {
-        let at = entry.index();
-        let (center, radius_squared, index, casts_shadow) = if entry.is_triangle() {
-            let Listed {
-                shape,
+    fn leaf_object(&self, index: u32) -> LeafObject {
+        let triangles = self.spheres.len() + self.planes.len();
+        let triangle = (index as usize).wrapping_sub(triangles);
+        match self.triangles.get(triangle) {
+            Some(listed) => LeafObject {
+                center: listed.shape.ball_center(),
+                radius_squared: listed.shape.ball_radius_squared(),
                 index,
-                casts_shadow,
-            } = self.triangles[at];
-            (
-                shape.ball_center(),
-                shape.ball_radius_squared(),
-                index,
-                casts_shadow,
-            )
-        } else {
-            let Listed {
-                shape,
-                index,
-                casts_shadow,
-            } = self.spheres[at];
-            (shape.center(), shape.radius_squared(), index, casts_shadow)
-        };
-        LeafObject {
-            center,
-            radius_squared,
-            index,
-            is_triangle: entry.is_triangle(),
-            casts_shadow,
-            of_shape: at as u32,
+                is_triangle: true,
+                casts_shadow: listed.casts_shadow,
+                of_shape: triangle as u32,
+            },
+            None => {
+                let listed = &self.spheres[index as usize];
+                LeafObject {
+                    center: listed.shape.center(),
+                    radius_squared: listed.shape.radius_squared(),
+                    index,
+                    is_triangle: false,
+                    casts_shadow: listed.casts_shadow,
+                    of_shape: index,
+                }
+            }
         }
     }
 
@@ -481,7 +476,7 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                     let origin = batch.outside.load(simd, at);
                     let normal = batch.normal.load(simd, at);
                     let mut lit = [0; LANES];
-                    for (number, light) in self.tracer.scene().lights.iter().enumerate() {
+                    for (number, light) in self.tracer.scene().lights().iter().enumerate() {
                         // As in `local_color`.
                         let to_light = Vec3s::splat(simd, light.position) - origin;
                         let toward = normal.dot(to_light);

@@ -1,9 +1,10 @@
 //! That the trees in other layouts have the objects of the scene's own, and that pictures by them are those of
 //! brute force, to the bit.
 
+use scanray::accel::{Accel, BvhNode, NodeContent};
 use scanray::{
-    Background, Camera, Color, Light, MaterialDescription, NodeContent, Resolution, Scene,
-    ScenePools, Tracer, Tree, TreeEntry, TreeNode, Vec3,
+    Background, Camera, Color, Light, MaterialDescription, Resolution, Scene, ScenePools, Tracer,
+    Vec3,
 };
 
 use super::wide::{WideChild, WideLeaf, WidePart, WideTree};
@@ -58,14 +59,11 @@ fn compare(name: &str, random: &Random, spheres: &[(Vec3, f32)], is_tree_expecte
     }
     pools.prepare();
     let scene = pools.as_scene();
-    assert_eq!(scene.tree.is_some(), is_tree_expected, "{name}");
+    assert_eq!(scene.accel().bvh().is_some(), is_tree_expected, "{name}");
     if is_tree_expected {
         check_layouts(name, scene);
     }
-    let by_brute_force = Scene {
-        tree: Tree::NONE,
-        ..scene
-    };
+    let by_brute_force = scene.without_accel();
     let resolution = Resolution {
         width: 20,
         height: 9,
@@ -75,7 +73,7 @@ fn compare(name: &str, random: &Random, spheres: &[(Vec3, f32)], is_tree_expecte
 
 /// Every sphere is in one leaf of each layout, and a pair and its part of the wide tree have the same spheres.
 fn check_layouts(name: &str, scene: Scene<'_>) {
-    let tracer = Tracer::new(scene).with_tree().with_stack::<STACK>();
+    let tracer = Tracer::new(scene).with_bvh().with_stack::<STACK>();
     let packets = PacketTracer::new(tracer);
     let tree = PacketTree::new(&packets, 0).expect("the builder's leaves are small");
     let wide = tree.wide.as_ref().expect("a walk has room for this tree");
@@ -88,7 +86,7 @@ fn check_layouts(name: &str, scene: Scene<'_>) {
     );
     all.sort_unstable();
     // The floor comes first.
-    let expected: Vec<u32> = (1..=scene.spheres.len() as u32).collect();
+    let expected: Vec<u32> = (1..=scene.spheres().len() as u32).collect();
     assert_eq!(all, expected, "{name}");
     for (index, pair) in tree.pairs.nodes.iter().enumerate() {
         let mut spheres = spheres_of_pair(&tree.pairs, index);
@@ -231,23 +229,18 @@ fn a_tree_of_large_leaves_is_left_to_the_core() {
         filling.add_sphere(center, 0.2, material).unwrap();
     }
     let scene = pools.as_scene();
-    let entries: Vec<_> = (0..60).map(TreeEntry::sphere).collect();
+    let entries: Vec<_> = (0..60).collect();
     let all = NodeContent::Leaf {
         first: 0,
         count: 60,
     };
-    let nodes = [TreeNode::new(Vec3::splat(-9.0), Vec3::splat(9.0), all)];
-    let tree = Tree {
-        nodes: &nodes,
-        entries: &entries,
-    };
-    let tracer = Tracer::new(Scene { tree, ..scene })
-        .with_tree()
-        .with_stack::<STACK>();
+    let nodes = [BvhNode::new(Vec3::splat(-9.0), Vec3::splat(9.0), all)];
+    let by_leaf = scene.with_accel(Accel::from_parts(&[], &[], &nodes, &entries, false));
+    let tracer = Tracer::new(by_leaf).with_bvh().with_stack::<STACK>();
     assert!(PacketTracer::new(tracer).tree.is_none());
     let resolution = Resolution {
         width: 40,
         height: 9,
     };
-    assert_same_as("one leaf", Scene { tree, ..scene }, scene, resolution, 1);
+    assert_same_as("one leaf", by_leaf, scene, resolution, 1);
 }

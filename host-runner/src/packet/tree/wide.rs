@@ -1,6 +1,7 @@
 //! A tree of spheres for single rays: eight boxes a node and eight spheres a leaf, which are tested at once.
 
-use scanray::{NodeContent, Tree, TreeNode, Vec3};
+use scanray::Vec3;
+use scanray::accel::{Bvh, BvhNode, NodeContent};
 
 use super::single::MOST_WAITING;
 use super::{LeafObject, PairTree};
@@ -102,7 +103,7 @@ impl WideTree {
     /// Collapses a tree, none of whose leaves has more than eight objects, and enters in the pairs which part
     /// of the wide tree each of them is. `pair_of` has the pair of each inner node of the tree, and the first
     /// object of each leaf. Nothing for a tree that is too deep for a walk.
-    pub(super) fn new(tree: Tree<'_>, pairs: &mut PairTree, pair_of: &[u32]) -> Option<Self> {
+    pub(super) fn new(tree: Bvh<'_>, pairs: &mut PairTree, pair_of: &[u32]) -> Option<Self> {
         let collapse = Collapse::of(tree);
         let mut new = Self::default();
         // Nodes of the tree that become wide ones, where they are entered, and how deep they are.
@@ -151,13 +152,13 @@ impl WideTree {
 
 /// A tree that is collapsed.
 struct Collapse<'t> {
-    tree: Tree<'t>,
+    tree: Bvh<'t>,
     /// Objects below each node.
     counts: Vec<u32>,
 }
 
 impl<'t> Collapse<'t> {
-    fn of(tree: Tree<'t>) -> Self {
+    fn of(tree: Bvh<'t>) -> Self {
         let mut counts = vec![0; tree.nodes.len()];
         // Children come later.
         for (index, node) in tree.nodes.iter().enumerate().rev() {
@@ -172,7 +173,7 @@ impl<'t> Collapse<'t> {
     }
 
     fn bounds(&self, node: usize) -> [Vec3; 2] {
-        let node: &TreeNode = &self.tree.nodes[node];
+        let node: &BvhNode = &self.tree.nodes[node];
         [node.low(), node.high()]
     }
 

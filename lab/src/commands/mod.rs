@@ -1,0 +1,5 @@
+//! The commands, one file each.
+
+pub(crate) mod report;
+pub(crate) mod stability;
+pub(crate) mod tune;

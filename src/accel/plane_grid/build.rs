@@ -1,0 +1,205 @@
+//! What rays can meet that leave a plane, by the place where they start.
+//!
+//! Planes have no bounds, so that a side of one meets nearly everything. But the lower coordinates of an
+//! object tell whether it lies behind a ray that goes up along the axis, and the upper ones likewise; and
+//! an object stands between a place and a light only inside the wedge from the light to the slab in which
+//! the place lies. Both are found for slabs of a bounded part of the plane, so that the margins can be
+//! relative to its size; from elsewhere anything may be met.
+
+use super::{PlaneGrid, Slab, across};
+use crate::accel::{ObjectSet, Source, collect, margin, size};
+use crate::light::Light;
+use crate::scalar::Scalar;
+use crate::shape::{BoundingSphere, Plane};
+use crate::vec3::Vec3;
+
+/// How much larger the part of the plane with slabs is than what the objects span.
+fn widening<T: Scalar>() -> T {
+    T::THREE_HALVES
+}
+
+/// The grid of a plane.
+pub(in crate::accel) fn plane_grid<T: Scalar>(
+    scene: &Source<'_, T>,
+    plane: &Plane<T>,
+) -> PlaneGrid<T> {
+    let Some(part) = Part::of(scene, plane) else {
+        return PlaneGrid::ALL;
+    };
+    let slabs = |axis: Axis| {
+        let mut slabs = [Slab::ALL; Slab::PER_AXIS];
+        for (slab, number) in slabs.iter_mut().zip(0..) {
+            *slab = part.slab(scene, axis, number);
+        }
+        slabs
+    };
+    PlaneGrid {
+        normal_axis: part.normal_axis,
+        low: part.low,
+        density: part.step.map(|step| T::ONE / step),
+        slabs: [slabs(Axis::First), slabs(Axis::Second)],
+    }
+}
+
+/// One of the two axes with slabs.
+#[derive(Clone, Copy)]
+enum Axis {
+    First,
+    Second,
+}
+
+impl Axis {
+    const BOTH: [Self; 2] = [Self::First, Self::Second];
+
+    /// What belongs to it.
+    fn of<E>(self, [first, second]: [E; 2]) -> E {
+        match self {
+            Self::First => first,
+            Self::Second => second,
+        }
+    }
+}
+
+/// A part of a plane, divided into slabs.
+struct Part<'p, T> {
+    plane: &'p Plane<T>,
+    normal_axis: u8,
+    low: [T; 2],
+    /// Widths of a slab.
+    step: [T; 2],
+    /// No coordinates of a place in it add up to more.
+    size: T,
+}
+
+impl<'p, T: Scalar> Part<'p, T> {
+    /// The part around the bounded objects; `None` if there are none or they span nothing.
+    fn of(scene: &Source<'_, T>, plane: &'p Plane<T>) -> Option<Self> {
+        let n = plane.normal().abs();
+        let normal_axis = if n.x > n.y && n.x > n.z {
+            0
+        } else if n.y > n.z {
+            1
+        } else {
+            2
+        };
+        let [(low_u, step_u, u), (low_v, step_v, v)] = Axis::BOTH.map(|axis| {
+            let (mut low, mut high) = (T::MAX, -T::MAX);
+            scene.geometry.for_each(|_, object| {
+                if let Some(ball) = object.bounding_sphere() {
+                    let center = axis.of(across(normal_axis, ball.center));
+                    high = (center + ball.radius).max(high);
+                    low = -((ball.radius - center).max(-low));
+                }
+            });
+            let middle = (low + high) * T::HALF;
+            let half = (high - low) * T::HALF * widening();
+            let step = (half + half) / T::from_i32(Slab::PER_AXIS as i32);
+            // The first slab reaches a step further down.
+            (middle - half, step, middle.abs() + half + step)
+        });
+        // n·p = height, so this bounds the third coordinate; the normal's largest component is over ½.
+        let third = T::TWO * (plane.height().abs() + u + v);
+        let size = u + v + third;
+        (step_u > T::ZERO && step_v > T::ZERO && size.is_finite()).then_some(Self {
+            plane,
+            normal_axis,
+            low: [low_u, low_v],
+            step: [step_u, step_v],
+            size,
+        })
+    }
+
+    /// The coordinate along an axis where a slab begins.
+    fn border(&self, axis: Axis, number: i32) -> T {
+        let steps = if number == 0 { -1 } else { number };
+        axis.of(self.low) + axis.of(self.step) * T::from_i32(steps)
+    }
+
+    /// What can be met from a slab.
+    fn slab(&self, scene: &Source<'_, T>, axis: Axis, number: i32) -> Slab {
+        let (from, to) = (self.border(axis, number), self.border(axis, number + 1));
+        let along = |ball: &BoundingSphere<T>| axis.of(across(self.normal_axis, ball.center));
+        Slab {
+            ahead: [
+                self.collect(scene, |ball, reach| !(along(ball) + reach < from)),
+                self.collect(scene, |ball, reach| !(along(ball) - reach > to)),
+            ],
+            occluders: self.collect(scene, |ball, reach| {
+                scene.lights.iter().any(|light| {
+                    !(self.is_outside(light, axis, [from, to], ball, reach)
+                        || self.is_outside(light, axis, [to, from], ball, reach))
+                })
+            }),
+        }
+    }
+
+    /// The objects with a ball, whose radius a margin is added to, for which something holds, and those
+    /// without one.
+    fn collect(
+        &self,
+        scene: &Source<'_, T>,
+        holds: impl Fn(&BoundingSphere<T>, T) -> bool,
+    ) -> ObjectSet {
+        collect(&scene.geometry, |object| {
+            object.bounding_sphere().is_none_or(|ball| {
+                let margin = margin(self.size + size(ball.center), ball.radius);
+                holds(&ball, ball.radius + margin)
+            })
+        })
+    }
+
+    /// The place in the middle of the part but for its coordinate along an axis.
+    fn place(&self, axis: Axis, coordinate: T) -> Vec3<T> {
+        let middle = |other: Axis| {
+            let steps = T::from_i32(Slab::PER_AXIS as i32) * T::HALF;
+            other.of(self.low) + other.of(self.step) * steps
+        };
+        let [u, v] = match axis {
+            Axis::First => [coordinate, middle(Axis::Second)],
+            Axis::Second => [middle(Axis::First), coordinate],
+        };
+        let (n, height) = (self.plane.normal(), self.plane.height());
+        match self.normal_axis {
+            0 => Vec3::new((height - n.y * u - n.z * v) / n.x, u, v),
+            1 => Vec3::new(u, (height - n.x * u - n.z * v) / n.y, v),
+            _ => Vec3::new(u, v, (height - n.x * u - n.y * v) / n.z),
+        }
+    }
+
+    /// Whether a ball lies beyond the first of two borders as the light sees it: beyond the plane through
+    /// that border and the light, on whose other side all rays from the slab to the light stay.
+    fn is_outside(
+        &self,
+        light: &Light<T>,
+        axis: Axis,
+        [border, other]: [T; 2],
+        ball: &BoundingSphere<T>,
+        reach: T,
+    ) -> bool {
+        let place = self.place(axis, border);
+        let to_place = place - light.position;
+        // The border's direction: in the plane, and across the axis.
+        let [u, v] = match axis {
+            Axis::First => [T::ONE, T::ZERO],
+            Axis::Second => [T::ZERO, T::ONE],
+        };
+        let unit = match self.normal_axis {
+            0 => Vec3::new(T::ZERO, u, v),
+            1 => Vec3::new(u, T::ZERO, v),
+            _ => Vec3::new(u, v, T::ZERO),
+        };
+        let Some((direction, _)) = self.plane.normal().cross(unit).try_normalize() else {
+            return false;
+        };
+        let wall = to_place.cross(direction);
+        let length = wall.dot(wall).sqrt();
+        // A light that is seen from the border at a low angle makes the wall's direction uncertain.
+        if !(length * T::from_i32(4) > size(to_place)) {
+            return false;
+        }
+        let height = |point: Vec3<T>| wall.dot(point - light.position) / length;
+        let margin = margin(size(light.position), T::ZERO);
+        let (slab, ball) = (height(self.place(axis, other)), height(ball.center));
+        (slab > margin && ball < -(reach + margin)) || (slab < -margin && ball > reach + margin)
+    }
+}

@@ -1,0 +1,244 @@
+//! What rays can meet that leave a side of an object.
+
+use super::{Candidates, Octant, Source, collect, margin, size};
+use crate::light::Light;
+use crate::scalar::Scalar;
+use crate::shape::{BoundingSphere, Object, Plane, Sphere, Triangle};
+use crate::vec3::Vec3;
+
+/// The reach of the front and the back of an object.
+pub(super) fn sides<T: Scalar>(scene: &Source<'_, T>, object: Object<'_, T>) -> [Candidates; 2] {
+    let reach = |front: bool| Candidates {
+        near: Octant::ALL.map(|octant| {
+            collect(&scene.geometry, |other| {
+                may_meet(object, front, other) && may_lie_ahead(object, octant, other)
+            })
+        }),
+        occluders: collect(&scene.geometry, |other| {
+            casts_shadow(scene, other)
+                && scene
+                    .lights
+                    .iter()
+                    .any(|light| may_shade(object, front, light, other))
+        }),
+        shadowed: is_shadowed(scene, object, front),
+    };
+    [reach(true), reach(false)]
+}
+
+fn is_same<T: Scalar>(a: Object<'_, T>, b: Object<'_, T>) -> bool {
+    a.surface().number == b.surface().number
+}
+
+/// Whether a ray that leaves a side of `from` can meet `other` first.
+fn may_meet<T: Scalar>(from: Object<'_, T>, front: bool, other: Object<'_, T>) -> bool {
+    match from {
+        // Outside, a sphere is convex: it cannot meet itself.
+        Object::Sphere(_) if front => !is_same(from, other),
+        // Inside, the ray meets the sphere itself before anything that lies outside of it.
+        Object::Sphere(sphere) => {
+            !has_inside(sphere) || is_same(from, other) || touches_ball(from, other)
+        }
+        // A flat object cannot meet itself.
+        Object::Plane(_) => !is_same(from, other),
+        Object::Triangle(triangle) => !is_same(from, other) && !lies_behind(triangle, front, other),
+    }
+}
+
+/// Whether a ray that leaves an object in a direction of an octant can come to `other`.
+fn may_lie_ahead<T: Scalar>(from: Object<'_, T>, octant: Octant, other: Object<'_, T>) -> bool {
+    let Some(ball) = from.bounding_sphere() else {
+        return true;
+    };
+    match (other, other.bounding_sphere()) {
+        (Object::Plane(plane), _) => {
+            // Not where the whole ball lies above the plane, and all directions lead up; or both down.
+            let above = height(plane, ball.center);
+            let is_apart = above.abs() > ball.radius + plane_margin(plane, ball);
+            !(is_apart && leads_along(octant, plane.normal(), above > T::ZERO))
+        }
+        // A ray from one ball meets the other only if a ray from the origin meets a ball with both radii
+        // around the way from one centre to the other; `across` is that ball's distance from the octant.
+        (_, Some(other)) => {
+            let across = outside_part(octant, other.center - ball.center);
+            let radii = ball.radius + other.radius;
+            let reach = radii + margin(size(ball.center) + size(other.center), radii);
+            !(across.dot(across).sqrt() > reach)
+        }
+        _ => true,
+    }
+}
+
+/// Whether no direction of an octant has a negative scalar product with a vector, or with its opposite if
+/// `along` is false. That holds for the rounded product too, whose terms have one sign.
+fn leads_along<T: Scalar>(octant: Octant, vector: Vec3<T>, along: bool) -> bool {
+    let vector = if along { vector } else { -vector };
+    let outside = outside_part(octant, vector);
+    outside.dot(outside) == T::ZERO
+}
+
+/// The vector from the nearest point of an octant to a point.
+fn outside_part<T: Scalar>(octant: Octant, point: Vec3<T>) -> Vec3<T> {
+    let [x, y, z] = octant.is_negative();
+    let outside = |coordinate: T, is_negative: bool| {
+        if (coordinate < T::ZERO) == is_negative {
+            T::ZERO
+        } else {
+            coordinate
+        }
+    };
+    Vec3::new(
+        outside(point.x, x),
+        outside(point.y, y),
+        outside(point.z, z),
+    )
+}
+
+/// Whether something of an object may lie in the ball around another.
+fn touches_ball<T: Scalar>(inside: Object<'_, T>, other: Object<'_, T>) -> bool {
+    let Some(ball) = inside.bounding_sphere() else {
+        return true;
+    };
+    match (other, other.bounding_sphere()) {
+        (Object::Plane(plane), _) => {
+            height(plane, ball.center).abs() <= ball.radius + plane_margin(plane, ball)
+        }
+        (_, Some(other)) => {
+            let between = other.center - ball.center;
+            let radii = ball.radius + other.radius;
+            let lengths = size(ball.center) + size(other.center);
+            between.dot(between).sqrt() <= radii + margin(lengths, radii)
+        }
+        _ => true,
+    }
+}
+
+/// Signed distance of a point from a plane.
+fn height<T: Scalar>(plane: &Plane<T>, point: Vec3<T>) -> T {
+    plane.normal().dot(point) - plane.height()
+}
+
+fn plane_margin<T: Scalar>(plane: &Plane<T>, ball: BoundingSphere<T>) -> T {
+    margin(size(ball.center) + plane.height().abs(), ball.radius)
+}
+
+/// Whether all of `other` lies on the far side of a triangle's plane. Rays leave the triangle towards
+/// the near side, up to their rounding, and the triangle is bounded, so that they do not reach it. (One without a ball is
+/// as good as unbounded.)
+fn lies_behind<T: Scalar>(triangle: &Triangle<T>, front: bool, other: Object<'_, T>) -> bool {
+    let normal = if front {
+        triangle.normal()
+    } else {
+        -triangle.normal()
+    };
+    let Some(ball) = Object::Triangle(triangle).bounding_sphere() else {
+        return false;
+    };
+    let [corner, ..] = triangle.vertices();
+    let own = size(corner) + ball.radius;
+    let is_behind = |point: Vec3<T>, radius: T| {
+        normal.dot(point - corner) + radius < -margin(own + size(point), radius)
+    };
+    match other {
+        Object::Sphere(sphere) => is_behind(sphere.center(), sphere.radius()),
+        Object::Plane(_) => false,
+        Object::Triangle(other) => other
+            .vertices()
+            .iter()
+            .all(|vertex| is_behind(*vertex, T::ZERO)),
+    }
+}
+
+/// Whether `other` may stand between a side of an object and a light.
+fn may_shade<T: Scalar>(
+    from: Object<'_, T>,
+    front: bool,
+    light: &Light<T>,
+    other: Object<'_, T>,
+) -> bool {
+    let Some(ball) = from.bounding_sphere() else {
+        return !is_same(from, other);
+    };
+    if is_same(from, other) {
+        // Only from inside a sphere does a ray towards the light meet the object it leaves.
+        return matches!(from, Object::Sphere(_)) && !front;
+    }
+    match (other, other.bounding_sphere()) {
+        (Object::Plane(plane), _) => {
+            // Both the object and the light strictly on one side?
+            let margin = plane_margin(plane, ball) + margin(size(light.position), T::ZERO);
+            let reach = ball.radius + margin;
+            let (from, to) = (height(plane, ball.center), height(plane, light.position));
+            let above = from > reach && to > margin;
+            let below = from < -reach && to < -margin;
+            !(above || below)
+        }
+        (_, Some(other)) => !lies_beside_light(ball, light.position, other),
+        _ => true,
+    }
+}
+
+/// Whether a ball lies outside of the convex hull of another ball and a point: of all segments from the
+/// other ball to the light.
+///
+/// The hull lies in the cone of half-angle φ, `sin φ = R/V`, with its tip in the light, at distance `V`
+/// from the ball of radius `R`; for a point at distance `a` along the axis and `h` from it the tangent
+/// plane of the cone is at the distance `h cos φ − (V − a) sin φ`.
+fn lies_beside_light<T: Scalar>(
+    from: BoundingSphere<T>,
+    light: Vec3<T>,
+    other: BoundingSphere<T>,
+) -> bool {
+    let to_light = light - from.center;
+    let to_other = other.center - from.center;
+    let light_distance = to_light.dot(to_light).sqrt();
+    let other_distance = to_other.dot(to_other).sqrt();
+    let radii = from.radius + other.radius;
+    let lengths = light_distance + size(from.center) + size(light) + size(other.center);
+    let margin = margin(lengths, radii);
+    let is_apart = other_distance > radii + margin;
+    if !(light_distance > from.radius) {
+        // The light is in the ball, and so is the hull.
+        return is_apart;
+    }
+    let axis = to_light * (T::ONE / light_distance);
+    let along = to_other.dot(axis);
+    let across = to_other - axis * along;
+    let height = across.dot(across).sqrt();
+    let sine = from.radius / light_distance;
+    let cosine = (T::ONE - sine * sine).sqrt();
+    let beside = height * cosine - (light_distance - along) * sine > other.radius + margin;
+    let beyond = along > light_distance + other.radius + margin;
+    let behind = along < T::ZERO && is_apart;
+    beside || beyond || behind
+}
+
+/// Whether a ray that leaves the inside of a sphere starts there. If it is as small as the rounding of its coordinates, the
+/// ray may start anywhere near.
+fn has_inside<T: Scalar>(sphere: &Sphere<T>) -> bool {
+    sphere.radius() > margin(size(sphere.center()), T::ZERO)
+}
+
+/// Whether no light reaches a side: inside a sphere that casts a shadow, from lights outside.
+fn is_shadowed<T: Scalar>(scene: &Source<'_, T>, object: Object<'_, T>, front: bool) -> bool {
+    let Object::Sphere(sphere) = object else {
+        return false;
+    };
+    !front
+        && casts_shadow(scene, object)
+        && has_inside(sphere)
+        && scene.lights.iter().all(|light| {
+            let to_light = light.position - sphere.center();
+            let lengths = size(light.position) + size(sphere.center());
+            let reach = sphere.radius() + margin(lengths, sphere.radius());
+            to_light.dot(to_light).sqrt() > reach
+        })
+}
+
+/// Whether an object casts a shadow; one without a material does.
+fn casts_shadow<T: Scalar>(scene: &Source<'_, T>, object: Object<'_, T>) -> bool {
+    scene
+        .materials
+        .get(object.surface().material as usize)
+        .is_none_or(|material| material.casts_shadow())
+}

@@ -1,0 +1,114 @@
+//! Nearest hits and shadows by the bounding-volume hierarchy of a large scene.
+
+use super::{Closest, Observer, TestKind, Tracer, stage};
+use crate::accel::Walk;
+use crate::ray::Ray;
+use crate::scalar::Scalar;
+use crate::shape::{Plane, Primitive, Sphere, Triangle, for_each_shape};
+use crate::stages::Stages;
+
+impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, STACK> {
+    /// Whether bounded objects are found by a hierarchy.
+    #[inline(always)]
+    pub(super) fn has_bvh(&self) -> bool {
+        stage(NEEDS, Stages::BVH) && self.scene.accel.bvh.is_some()
+    }
+
+    /// Makes the closest object of all the closest.
+    #[inline(never)]
+    pub(super) fn closest_in_bvh(
+        &self,
+        ray: &Ray<T>,
+        closest: &mut Closest<T>,
+        observer: &mut impl Observer<T>,
+    ) {
+        let mut walk = Walk::new(self.scene.accel.bvh, ray);
+        while let Some(leaf) = walk.next_leaf(closest.t, || observer.test(TestKind::Box)) {
+            for entry in leaf {
+                let index = *entry as usize;
+                let mut within = index;
+                macro_rules! offer_bounded {
+                    ([$($shape:ident)*]) => {
+                        $(if stage(NEEDS, <$shape<T> as Primitive<T>>::STAGE) {
+                            let all = <$shape<T>>::all(&self.scene.geometry);
+                            if let Some(object) = all.get(within) {
+                                self.offer(index, object, ray, closest, observer);
+                                continue;
+                            }
+                            within = within.wrapping_sub(all.len());
+                        })*
+                    };
+                }
+                for_each_shape!(offer_bounded);
+                let _ = within;
+            }
+        }
+        // What has no box.
+        if stage(NEEDS, Stages::PLANES) {
+            let first = self.scene.geometry.spheres.len();
+            for (index, plane) in (first..).zip(self.scene.geometry.planes) {
+                self.offer(index, plane, ray, closest, observer);
+            }
+        }
+    }
+
+    /// Makes an object the closest if it is.
+    #[inline(always)]
+    fn offer<P: Primitive<T>>(
+        &self,
+        index: usize,
+        object: &P,
+        ray: &Ray<T>,
+        closest: &mut Closest<T>,
+        observer: &mut impl Observer<T>,
+    ) {
+        observer.test_object(object.object(), ray, closest.t);
+        if let Some((t, place)) = object.hit(ray, closest.t)
+            && !self.is_left::<P>(ray, index)
+        {
+            closest.offer(t, index, place);
+        }
+    }
+
+    /// Whether an object that casts a shadow lies on the ray within `0 < t < t_max`.
+    #[inline(never)]
+    pub(super) fn occluded_in_bvh(
+        &self,
+        ray: &Ray<T>,
+        t_max: T,
+        observer: &mut impl Observer<T>,
+    ) -> bool {
+        let mut walk = Walk::new(self.scene.accel.bvh, ray);
+        while let Some(leaf) = walk.next_leaf(t_max, || observer.test(TestKind::Box)) {
+            for entry in leaf {
+                let index = *entry as usize;
+                let mut within = index;
+                macro_rules! occluded_by_bounded {
+                    ([$($shape:ident)*]) => {
+                        $(if stage(NEEDS, <$shape<T> as Primitive<T>>::STAGE) {
+                            let all = <$shape<T>>::all(&self.scene.geometry);
+                            if let Some(object) = all.get(within) {
+                                observer.test_object(object.object(), ray, t_max);
+                                if self.is_occluded_by(index, object, ray, t_max) {
+                                    return true;
+                                }
+                                continue;
+                            }
+                            within = within.wrapping_sub(all.len());
+                        })*
+                    };
+                }
+                for_each_shape!(occluded_by_bounded);
+                let _ = within;
+            }
+        }
+        let first = self.scene.geometry.spheres.len();
+        stage(NEEDS, Stages::PLANES)
+            && (first..)
+                .zip(self.scene.geometry.planes)
+                .any(|(index, plane)| {
+                    observer.test_object(plane.object(), ray, t_max);
+                    self.is_occluded_by(index, plane, ray, t_max)
+                })
+    }
+}
