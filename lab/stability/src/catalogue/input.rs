@@ -322,17 +322,6 @@ fn flush_to_zero<T: Number>(record: &mut Record) {
     record.holds("the smallest number has the last bit alone", of == bits);
     record.count("halves that are not exact", wrong, of);
 
-    // The difference of two numbers that are close is exact, unless it is flushed.
-    let random = record.random(67);
-    let (mut wrong, of) = (0, 10_000);
-    for _ in 0..of {
-        let number = || T::MIN_POSITIVE * T::from_f64(random.between(1.0, 2.0));
-        let (a, b) = (number(), number());
-        let difference = machine(a) - machine(b);
-        wrong += u64::from((difference == T::ZERO) != (a == b) || machine(difference) + b != a);
-    }
-    record.count("differences that are not exact", wrong, of);
-
     // A scene that shines this little, by its objects and behind them.
     let shine = T::MIN_POSITIVE * T::HALF * T::HALF;
     let faint = Color::new(shine, shine, shine);
@@ -361,6 +350,17 @@ fn flush_to_zero<T: Number>(record: &mut Record) {
         wrong as u64,
         colors.len() as u64,
     );
+
+    // The difference of two numbers that are close is exact, unless it is flushed.
+    let random = record.random(67);
+    let (mut wrong, of) = (0, 10_000);
+    for _ in 0..of {
+        let number = || T::MIN_POSITIVE * T::from_f64(random.between(1.0, 2.0));
+        let (a, b) = (number(), number());
+        let difference = machine(a) - machine(b);
+        wrong += u64::from((difference == T::ZERO) != (a == b) || machine(difference) + b != a);
+    }
+    record.count("differences that are not exact", wrong, of);
 }
 
 /// The CRC-32 of PNG and zlib: the boards' hash of a picture.
