@@ -166,7 +166,7 @@ fn may_shade<T: Scalar>(
     };
     if is_same(from, other) {
         // Flat objects are not met by rays that leave them, nor convex ones from outside.
-        return !from.is_flat() && !(front && matches!(from, Object::Sphere(_)));
+        return !(from.is_flat() || front && matches!(from, Object::Sphere(_)));
     }
     match (other, other.bounding_sphere()) {
         (Object::Plane(plane), _) => {

@@ -283,6 +283,12 @@ enum Shape {
     Triangle,
 }
 
+impl<T: Scalar> Default for Counter<T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl<T: Scalar> Counter<T> {
     /// Nothing is counted yet.
     pub fn new() -> Self {

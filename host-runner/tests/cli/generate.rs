@@ -65,5 +65,5 @@ fn is_drawn_by_its_tree_with_both_scalars() {
     }
     let baked = folder.succeed(&["bake", "many.txt"]);
     let source = String::from_utf8(baked.stdout).unwrap();
-    assert!(source.contains("::scanray::TreeNode::new("));
+    assert!(source.contains("::scanray::accel::BvhNode::new("));
 }
