@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use fearless_simd::prelude::*;
 
-use super::lanes::{Indices, LANES, Mask, Numbers, Rays, Vec3s};
+use super::lanes::{Colors, InLanes, Indices, LANES, Mask, Numbers, Rays, Three, clamp};
 use super::tree::WaitingParts;
 
 /// Rays that a batch holds.
@@ -28,7 +28,7 @@ fn column<E: Copy + Default + std::fmt::Debug>() -> Column<E> {
     column.try_into().expect("it has this length")
 }
 
-/// A vector for each ray.
+/// A vector or a colour for each ray.
 #[derive(Debug)]
 pub(super) struct Columns([Column<f32>; 3]);
 
@@ -38,34 +38,36 @@ impl Columns {
     }
 
     #[inline(always)]
-    pub(super) fn load<S: Simd>(&self, simd: S, at: usize) -> Vec3s<S> {
+    pub(super) fn load<S: Simd, V: Three<S>>(&self, simd: S, at: usize) -> V {
         let [x, y, z] = &self.0;
-        Vec3s::new(load(simd, x, at), load(simd, y, at), load(simd, z, at))
+        V::from_three([load(simd, x, at), load(simd, y, at), load(simd, z, at)])
     }
 
     #[inline(always)]
-    pub(super) fn store<S: Simd>(&mut self, at: usize, v: Vec3s<S>) {
+    pub(super) fn store<S: Simd>(&mut self, at: usize, v: impl Three<S>) {
         let [x, y, z] = &mut self.0;
-        store(x, at, v.x);
-        store(y, at, v.y);
-        store(z, at, v.z);
+        let v = v.three();
+        store(x, at, v[0]);
+        store(y, at, v[1]);
+        store(z, at, v[2]);
     }
 
     #[inline(always)]
-    fn gather<S: Simd>(&self, simd: S, at: &Lanes) -> Vec3s<S> {
+    fn gather<S: Simd, V: Three<S>>(&self, simd: S, at: &Lanes) -> V {
         let [x, y, z] = &self.0;
-        Vec3s::new(at.gather(simd, x), at.gather(simd, y), at.gather(simd, z))
+        V::from_three([at.gather(simd, x), at.gather(simd, y), at.gather(simd, z)])
     }
 
     /// Stores the vectors of some lanes.
     #[inline(always)]
-    pub(super) fn scatter<S: Simd>(&mut self, lanes: &Lanes, vectors: Vec3s<S>) {
+    pub(super) fn scatter<S: Simd>(&mut self, lanes: &Lanes, vectors: impl Three<S>) {
         if lanes.is_run && lanes.count == LANES {
             self.store(lanes.rays[0] as usize, vectors);
         } else {
+            let [x, y, z] = vectors.three();
             for (lane, ray) in lanes.rays[..lanes.count].iter().enumerate() {
-                let v = vectors.lane(lane);
-                for (column, component) in self.0.iter_mut().zip([v.x, v.y, v.z]) {
+                let v = [x[lane], y[lane], z[lane]];
+                for (column, component) in self.0.iter_mut().zip(v) {
                     column[*ray as usize] = component;
                 }
             }
@@ -108,7 +110,7 @@ impl Lanes {
             for (number, ray) in numbers.iter_mut().zip(&self.rays) {
                 *number = column[*ray as usize];
             }
-            Numbers::simd_from(simd, numbers)
+            Numbers::from_array(simd, numbers)
         }
     }
 }
@@ -318,9 +320,9 @@ impl Batch {
     #[inline(always)]
     pub(super) fn clamp<S: Simd>(&mut self, simd: S) {
         for at in (0..self.len).step_by(LANES) {
-            let color = self.color.load(simd, at);
+            let color: Colors<S> = self.color.load(simd, at);
             let object = Indices::from_slice(simd, &self.object[at..at + LANES]);
-            let clamped = Vec3s::select(object.simd_eq(NOTHING), color, color.clamp(simd));
+            let clamped = Colors::select(object.simd_eq(NOTHING), color, clamp(color));
             self.color.store(at, clamped);
         }
     }

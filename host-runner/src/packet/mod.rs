@@ -7,11 +7,12 @@
 //! adds them. Where a batch is full before all rays of a depth are cast, it is traced to its end at
 //! once, which bounds the memory at any depth.
 //!
-//! A lane has the bits of the core, because every operation is the same one in the same order, a lane
-//! does not know of its neighbours, and the rays of a vector leave the same side, so that they are
-//! tested against the core's own candidates. In a scene with a tree all objects are candidates and the
-//! rays of a vector are neighbours that may leave any sides ([`tree`]). What mirrors which function of the core is named beside
-//! it: a change of one is a change of both.
+//! A lane has the bits of the core, because it calls the core's own [formulas](scanray::formula), a lane does not know
+//! of its neighbours, and the rays of a vector leave the same side, so that they are tested against the core's own
+//! candidates. In a scene with a tree all objects are candidates and the rays of a vector are neighbours that
+//! may leave any sides ([`tree`]). What decides between formulas as which function of the core does is named beside it.
+//!
+//! A new shape has its functions in a file of [`shapes`] and stands in the list there.
 
 mod batch;
 mod lanes;
@@ -26,7 +27,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use fearless_simd::Level;
 use fearless_simd::prelude::*;
 use scanray::accel::Candidates;
-use scanray::shape::{Plane, Sphere, Surface, Triangle};
+use scanray::formula::{camera, shading};
+use scanray::shape::Surface;
 use scanray::{
     Background, Color, Material, Object, ObjectSet, Resolution, Scanline, Side, Stages, Tracer,
 };
@@ -34,7 +36,8 @@ use scanray::{
 use crate::host_tracer::SampleRow;
 
 use batch::{Batch, CAPACITY, MOST_LIGHTS, NOTHING, NOWHERE};
-use lanes::{Colors, Indices, LANES, Mask, Numbers, Rays, Vec3s};
+use lanes::{Colors, InLanes, Indices, LANES, Mask, Numbers, Rays, Vec3s};
+use shapes::{Meeting, Shapes};
 use tree::PacketTree;
 
 /// Traces eight rays at a time through a scene, which it has made lists of.
@@ -42,15 +45,13 @@ use tree::PacketTree;
 pub(crate) struct PacketTracer<'a, const STACK: usize> {
     tracer: Tracer<'a, f32, { Stages::ALL.union(Stages::BVH).bits() }, STACK>,
     level: Level,
-    spheres: Vec<Listed<'a, Sphere>>,
-    planes: Vec<Listed<'a, Plane>>,
-    triangles: Vec<Listed<'a, Triangle>>,
+    shapes: Shapes<'a>,
     /// All objects, in the order of their numbers.
     objects: Vec<Target<'a>>,
     /// All shapes of the scene have lanes; otherwise the core draws it.
     is_complete: bool,
     /// Of a large scene.
-    tree: Option<PacketTree>,
+    tree: Option<PacketTree<'a>>,
     /// Of threads that do not trace at the moment.
     idle: Mutex<Vec<Workspace>>,
 }
@@ -64,20 +65,12 @@ struct Workspace {
     counts: Vec<u32>,
 }
 
-/// An object among those of its shape.
-#[derive(Clone, Copy, Debug)]
-struct Listed<'a, O> {
-    shape: &'a O,
-    /// Its index among all objects.
-    index: u32,
-    casts_shadow: bool,
-}
-
 /// An object with what shading needs to know of it.
 #[derive(Clone, Copy, Debug)]
 struct Target<'a> {
     object: Object<'a>,
     material: Option<&'a Material>,
+    casts_shadow: bool,
     /// Of its front and its back.
     reach: [&'a Candidates; 2],
     /// What rays can meet that leave them in any direction: those of a vector have several.
@@ -101,9 +94,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
         let mut packets = Self {
             tracer,
             level: Level::new(),
-            spheres: Vec::with_capacity(scene.spheres().len()),
-            planes: Vec::with_capacity(scene.planes().len()),
-            triangles: Vec::with_capacity(scene.triangles().len()),
+            shapes: Shapes::default(),
             objects: Vec::with_capacity(scene.object_count()),
             is_complete: true,
             tree: None,
@@ -111,27 +102,14 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
         };
         let objects = (0..scene.object_count()).filter_map(|index| scene.object(index));
         for (index, object) in (0..).zip(objects) {
-            let surface = object.surface();
-            let casts_shadow = material(surface).is_none_or(Material::casts_shadow);
-            macro_rules! list {
-                ($list:ident, $shape:ident) => {
-                    packets.$list.push(Listed {
-                        shape: $shape,
-                        index,
-                        casts_shadow,
-                    })
-                };
-            }
-            match object {
-                Object::Sphere(sphere) => list!(spheres, sphere),
-                Object::Plane(plane) => list!(planes, plane),
-                Object::Triangle(triangle) => list!(triangles, triangle),
-                _ => packets.is_complete = false,
-            }
+            let material = material(object.surface());
+            let casts_shadow = material.is_none_or(Material::casts_shadow);
+            packets.is_complete &= packets.shapes.add(object, index, casts_shadow);
             let sides = [true, false].map(|front| reach(Side::new(index, front)));
             packets.objects.push(Target {
                 object,
-                material: material(surface),
+                material,
+                casts_shadow,
                 reach: sides,
                 near: sides.map(Candidates::near_in_any_direction),
             });
@@ -140,21 +118,6 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
             packets.tree = PacketTree::new(&packets, tree::FEWEST_FOR_SINGLES);
         }
         packets
-    }
-
-    #[inline(always)]
-    fn spheres_among(&self, set: ObjectSet) -> impl Iterator<Item = &Listed<'a, Sphere>> {
-        members(&self.spheres, 0, set)
-    }
-
-    #[inline(always)]
-    fn planes_among(&self, set: ObjectSet) -> impl Iterator<Item = &Listed<'a, Plane>> {
-        members(&self.planes, self.spheres.len(), set)
-    }
-
-    #[inline(always)]
-    fn triangles_among(&self, set: ObjectSet) -> impl Iterator<Item = &Listed<'a, Triangle>> {
-        members(&self.triangles, self.spheres.len() + self.planes.len(), set)
     }
 
     /// The linear colours at a place in pixels of a row: those of `Tracer::sample_observed`.
@@ -226,7 +189,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
         colors: &mut [Color],
     ) {
         let Resolution { width, height } = self.tracer.resolution();
-        let origin = Vec3s::splat(simd, self.tracer.scene().camera().position);
+        let origin = Vec3s::in_every_lane(simd, self.tracer.scene().camera().position);
         let batch = &mut batches[0];
         for at in (0..colors.len()).step_by(LANES) {
             // `Camera::ray_at`.
@@ -237,13 +200,13 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
                 let column = pixel * of + i32::from(places.at.column);
                 (2 * column + 1 - i32::from(width) * of) as f32
             });
-            let direction = Vec3s::new(
-                column / (i32::from(height) * of) as f32,
+            let direction = camera::direction(
+                column,
+                Numbers::splat(simd, (i32::from(height) * of) as f32),
                 Numbers::splat(simd, scanline.row_height()),
-                Numbers::splat(simd, 1.0),
             );
             batch.origin.store(at, origin);
-            batch.direction.store(at, direction.normalize(simd));
+            batch.direction.store(at, direction);
         }
         batch.leaves[..colors.len()].fill(NOWHERE);
         batch.len = colors.len();
@@ -328,28 +291,8 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
                     None => visible,
                 };
                 let mut closest = Closest::none(simd);
-                for sphere in self.spheres_among(candidates) {
-                    let (center, square) = (sphere.shape.center(), sphere.shape.radius_squared());
-                    if let Some(t) = shapes::meet_sphere(simd, center, square, &rays) {
-                        closest.offer(simd, t, Mask::splat(simd, true), sphere.index);
-                    }
-                }
-                for plane in self.planes_among(candidates) {
-                    if plane.index != leaves >> 1 {
-                        let t = shapes::meet_plane(simd, plane.shape, &rays);
-                        closest.offer(simd, t, Mask::splat(simd, true), plane.index);
-                    }
-                }
-                for triangle in self.triangles_among(candidates) {
-                    if triangle.index != leaves >> 1
-                        && let Some(meeting) = shapes::meet_triangle(simd, triangle.shape, &rays)
-                    {
-                        let closer = closest.offer(simd, meeting.t, meeting.inside, triangle.index);
-                        for (place, new) in closest.place.iter_mut().zip(meeting.place) {
-                            *place = closer.select(new, *place);
-                        }
-                    }
-                }
+                self.shapes
+                    .meet(simd, &rays, leaves >> 1, candidates, &mut closest);
                 self.keep(simd, &closest, rays.direction, batch, at);
                 let sides = &batch.leaves[at..batch.len.min(at + LANES)];
                 sides.iter().take_while(|side| **side == leaves).count()
@@ -385,19 +328,11 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
     fn background<S: Simd>(&self, simd: S, direction: Vec3s<S>) -> Colors<S> {
         let Background { color, sky } = self.tracer.scene().background();
         if sky {
-            let s = (direction.y + 1.0) * 0.5;
-            let white = Numbers::splat(simd, 1.0) - s;
-            Vec3s::new(white + s * 0.5, white + s * 0.7, white + s)
+            shading::sky(direction.y)
         } else {
-            splat(simd, color.clamp())
+            Colors::in_every_lane(simd, color.clamp())
         }
     }
-}
-
-/// A colour in every lane.
-#[inline(always)]
-fn splat<S: Simd>(simd: S, color: Color) -> Colors<S> {
-    Vec3s::splat(simd, scanray::Vec3::new(color.r, color.g, color.b))
 }
 
 /// The closest meeting of each ray so far. `Closest` of the core.
@@ -418,24 +353,20 @@ impl<S: Simd> Closest<S> {
         }
     }
 
-    /// Takes the meetings with an object that come first, and tells which. `Closest::yields_to` and the
-    /// range of `intersect`.
+    /// Takes the meetings with an object that come first. `Closest::offer` of the core.
     #[inline(always)]
-    fn offer(&mut self, simd: S, t: Numbers<S>, lanes: Mask<S>, object: u32) -> Mask<S> {
+    fn offer(&mut self, simd: S, meeting: &Meeting<S>, object: u32) {
+        let t = meeting.t;
         let first = Indices::splat(simd, object).simd_lt(self.object);
         let closer = t.simd_lt(self.t) | (t.simd_eq(self.t) & first);
-        let closer = lanes & t.simd_gt(0.0) & closer;
-        self.t = closer.select(t, self.t);
+        let closer: Mask<S> = meeting.lanes & t.simd_gt(0.0) & closer;
+        self.t = Numbers::select(closer, t, self.t);
         self.object = closer.select(Indices::splat(simd, object), self.object);
-        closer
+        if let Some([v2, v3]) = meeting.place {
+            self.place = [
+                Numbers::select(closer, v2, self.place[0]),
+                Numbers::select(closer, v3, self.place[1]),
+            ];
+        }
     }
-}
-
-/// The members of a set, among the objects of one shape, the first of which has an index among all.
-#[inline(always)]
-fn members<O>(objects: &[O], first: usize, set: ObjectSet) -> impl Iterator<Item = &O> {
-    (first..)
-        .zip(objects)
-        .filter(move |(index, _)| set.contains(*index))
-        .map(|(_, object)| object)
 }

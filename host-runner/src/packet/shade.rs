@@ -1,13 +1,12 @@
 //! Shading of up to eight hits on one object, and the rays they cast.
 
 use fearless_simd::prelude::*;
-use scanray::{Material, Object, ObjectSet};
+use scanray::formula::{optics, shading};
+use scanray::{Light, Material, Number, ObjectSet};
 
 use super::batch::{Batch, Lanes};
-use super::lanes::{
-    Colors, Indices, Mask, Numbers, Rays, Vec3s, first_lanes, power_of_whole, powf,
-};
-use super::{PacketTracer, Target, shapes, splat};
+use super::lanes::{Colors, InLanes, Indices, LANES, Mask, Numbers, Rays, Vec3s, first_lanes};
+use super::{PacketTracer, Target, shapes};
 
 /// Meetings with the surface of one object, ready for shading. `Hit` of the core.
 #[derive(Clone, Copy)]
@@ -26,9 +25,11 @@ impl<S: Simd> Hits<S> {
     /// One of two numbers in each lane, by whether the ray enters.
     #[inline(always)]
     fn by_side(&self, simd: S, entering: f32, leaving: f32) -> Numbers<S> {
-        let entering = Numbers::splat(simd, entering);
-        self.entering
-            .select(entering, Numbers::splat(simd, leaving))
+        let (entering, leaving) = (
+            Numbers::splat(simd, entering),
+            Numbers::splat(simd, leaving),
+        );
+        Numbers::select(self.entering, entering, leaving)
     }
 }
 
@@ -63,11 +64,11 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
 
                 let Some(below) = below else { return };
                 let description = material.description();
-                // `Tracer::mirrored`.
+                // As in `Tracer::radiance_observed`.
                 if description.reflection > 0.0 {
                     let mirrored = Rays {
                         origin: hits.outside,
-                        direction: rays.direction.reflect(simd, hits.normal),
+                        direction: optics::mirror(rays.direction, hits.normal, hits.cosine),
                     };
                     let leaves = sides(simd, index, hits.entering);
                     below.push(&mirrored, leaves, description.reflection, lanes, valid);
@@ -103,7 +104,7 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
         let valid = first_lanes(simd, of.count);
         let scene = self.tracer.scene();
         let description = material.description();
-        let mut color = splat(simd, description.ambient * scene.ambient());
+        let mut color = Colors::in_every_lane(simd, description.ambient * scene.ambient());
         let [front, back] = target.reach;
         let front_open = hits.entering & valid & Mask::splat(simd, !front.shadowed);
         let back_open = !hits.entering & valid & Mask::splat(simd, !back.shadowed);
@@ -111,20 +112,13 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
             return color;
         }
         for (number, light) in scene.lights().iter().enumerate() {
-            let to_light = Vec3s::splat(simd, light.position) - hits.outside;
-            let toward = hits.normal.dot(to_light);
-            let distance_squared = to_light.dot(to_light);
-            let facing = toward.simd_gt(0.0) & distance_squared.simd_gt(0.0);
+            let toward = TowardLight::new(simd, light, hits.outside, hits.normal);
+            let facing = toward.is_facing();
             let mut lit = (front_open | back_open) & facing;
             if !lit.any_true() {
                 continue;
             }
-            let distance = distance_squared.sqrt();
-            let inverse = Numbers::splat(simd, 1.0) / distance;
-            let shadow = Rays {
-                origin: hits.outside,
-                direction: to_light * inverse,
-            };
+            let (shadow, distance, cosine) = toward.shadow(hits.outside);
             if self.tree.is_some() {
                 // `cast_shadows` has found it out.
                 lit &= batch.lit(simd, of, number);
@@ -141,18 +135,24 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
             if !lit.any_true() {
                 continue;
             }
-            let cosine = toward * inverse;
-            let diffuse = splat(simd, light.diffuse) * cosine;
-            let diffuse = color + diffuse.tint(splat(simd, description.diffuse));
-            color = Vec3s::select(lit, diffuse, color);
+            let [diffuse, share] = [light.diffuse, description.diffuse];
+            let diffuse = shading::reflected(
+                Colors::in_every_lane(simd, diffuse),
+                cosine,
+                Colors::in_every_lane(simd, share),
+            );
+            color = Colors::select(lit, color + diffuse, color);
             if !description.specular.is_black() {
-                let alignment = cosine * 2.0 * hits.cosine + shadow.direction.dot(rays.direction);
+                let alignment =
+                    shading::alignment(cosine, hits.cosine, shadow.direction, rays.direction);
                 let shines = lit & alignment.simd_gt(0.0);
                 if shines.any_true() {
-                    let highlight =
-                        splat(simd, light.specular) * phong_power(simd, alignment, material);
-                    let shining = color + highlight.tint(splat(simd, description.specular));
-                    color = Vec3s::select(shines, shining, color);
+                    let highlight = shading::reflected(
+                        Colors::in_every_lane(simd, light.specular),
+                        phong_power(alignment, material),
+                        Colors::in_every_lane(simd, description.specular),
+                    );
+                    color = Colors::select(shines, color + highlight, color);
                 }
             }
         }
@@ -174,34 +174,47 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
             #[inline(always)]
             || {
                 let mut occluded = !lanes;
-                for sphere in self.spheres_among(candidates) {
-                    if sphere.casts_shadow {
-                        let (center, square) =
-                            (sphere.shape.center(), sphere.shape.radius_squared());
-                        occluded |= shapes::sphere_occludes(simd, center, square, rays, t_max);
-                    }
-                }
-                for plane in self.planes_among(candidates) {
-                    if plane.casts_shadow && plane.index != leaves {
-                        let t = shapes::meet_plane(simd, plane.shape, rays);
-                        occluded |= t.simd_gt(0.0) & t.simd_lt(t_max);
-                    }
-                }
-                for triangle in self.triangles_among(candidates) {
-                    if occluded.all_true() {
-                        break;
-                    }
-                    if triangle.casts_shadow
-                        && triangle.index != leaves
-                        && let Some(meeting) = shapes::meet_triangle(simd, triangle.shape, rays)
-                    {
-                        let t = meeting.t;
-                        occluded |= meeting.inside & t.simd_gt(0.0) & t.simd_lt(t_max);
-                    }
-                }
+                self.shapes
+                    .occlude(simd, rays, leaves, t_max, candidates, &mut occluded);
                 occluded
             },
         )
+    }
+}
+
+/// The way from hits to a light. `Tracer::lit`.
+#[derive(Clone, Copy)]
+pub(super) struct TowardLight<S: Simd> {
+    to_light: Vec3s<S>,
+    /// Along the normal.
+    rise: Numbers<S>,
+    distance_squared: Numbers<S>,
+}
+
+impl<S: Simd> TowardLight<S> {
+    #[inline(always)]
+    pub(super) fn new(simd: S, light: &Light, outside: Vec3s<S>, normal: Vec3s<S>) -> Self {
+        let to_light = Vec3s::in_every_lane(simd, light.position) - outside;
+        Self {
+            to_light,
+            rise: to_light.along(normal),
+            distance_squared: to_light.dot(to_light),
+        }
+    }
+
+    /// The lanes in which the light is in front of the surface.
+    #[inline(always)]
+    pub(super) fn is_facing(&self) -> Mask<S> {
+        self.rise.simd_gt(0.0) & self.distance_squared.simd_gt(0.0)
+    }
+
+    /// The shadow rays from there, the distance of the light and the cosine of its angle.
+    #[inline(always)]
+    pub(super) fn shadow(&self, origin: Vec3s<S>) -> (Rays<S>, Numbers<S>, Numbers<S>) {
+        let distance = self.distance_squared.sqrt();
+        let inverse = distance.constant(1.0) / distance;
+        let direction = self.to_light * inverse;
+        (Rays { origin, direction }, distance, self.rise * inverse)
     }
 }
 
@@ -215,7 +228,7 @@ fn sides<S: Simd>(simd: S, index: u32, front: Mask<S>) -> Indices<S> {
     )
 }
 
-/// `surface_point` of the shapes and `Tracer::hit`.
+/// `Tracer::hit`.
 #[inline(always)]
 pub(super) fn hits<S: Simd>(
     simd: S,
@@ -224,51 +237,17 @@ pub(super) fn hits<S: Simd>(
     lanes: &Lanes,
     rays: &Rays<S>,
 ) -> Hits<S> {
-    let (point, normal, offset) = match target.object {
-        Object::Sphere(sphere) => {
-            let center = Vec3s::splat(simd, sphere.center());
-            let at = rays.at(batch.distances(simd, lanes));
-            let normal = (at - center).normalize(simd);
-            let radius = Numbers::splat(simd, sphere.radius());
-            let offset = Numbers::splat(simd, sphere.offset());
-            (center + normal * radius, normal, offset)
-        }
-        Object::Plane(plane) => {
-            let normal = Vec3s::splat(simd, plane.normal());
-            let at = rays.at(batch.distances(simd, lanes));
-            let point = at - normal * (normal.dot(at) - plane.height());
-            let components = normal.tint(point).abs();
-            let components = components.x + components.y + components.z;
-            // `origin_offset`.
-            let offset = (components + plane.height().abs()) * (2.0 * f32::EPSILON);
-            (point, normal, offset)
-        }
-        Object::Triangle(triangle) => {
-            let [v1, v2, v3] = triangle.vertices();
-            let (v1, v2, v3) = (
-                Vec3s::splat(simd, v1),
-                Vec3s::splat(simd, v2),
-                Vec3s::splat(simd, v3),
-            );
-            let [at_v2, at_v3] = batch.places(simd, lanes);
-            let at_v1 = Numbers::splat(simd, 1.0) - at_v2 - at_v3;
-            let normal = Vec3s::splat(simd, triangle.normal());
-            let offset = Numbers::splat(simd, triangle.offset());
-            let point = v1 * at_v1 + v2 * at_v2 + v3 * at_v3;
-            (point, normal, offset)
-        }
-        _ => unreachable!("scenes of other shapes are drawn by the core"),
-    };
-    let slope = normal.dot(rays.direction);
+    let at = shapes::point(simd, target.object, rays, batch, lanes);
+    let slope = rays.direction.along(at.normal);
     let entering = slope.simd_le(0.0);
-    let normal = Vec3s::select(entering, normal, -normal);
-    let step = normal * offset;
+    let normal = Vec3s::select(entering, at.normal, -at.normal);
+    let step = normal * at.offset;
     Hits {
         normal,
         cosine: slope.abs(),
         entering,
-        outside: point + step,
-        inside: point - step,
+        outside: at.point + step,
+        inside: at.point - step,
     }
 }
 
@@ -287,16 +266,45 @@ fn refracted<S: Simd>(
     let (entering, leaving) = (material.entering(), material.leaving());
     let eta = hits.by_side(simd, entering.eta, leaving.eta);
     let bend = hits.by_side(simd, entering.bend, leaving.bend);
-    rays.direction.refract(simd, hits.normal, eta, bend, valid)
+    // `Vec3::refract`.
+    let beyond = optics::beyond_critical(hits.cosine, bend);
+    let mut passes = valid & beyond.simd_ge(0.0);
+    let bent = optics::refract(rays.direction, hits.normal, hits.cosine, beyond, eta);
+    let mut direction = optics::renormalize(bent);
+    let rare = passes & !optics::drift(bent).simd_lt(f32::EPSILON * 256.0);
+    if rare.any_true() {
+        // Leave the extreme index to the core.
+        let mut parts = [
+            direction.x.to_array(),
+            direction.y.to_array(),
+            direction.z.to_array(),
+        ];
+        for lane in (0..LANES).filter(|lane| rare.test(*lane)) {
+            let (incoming, normal) = (rays.direction.lane(lane), hits.normal.lane(lane));
+            let refracted = incoming.refract(normal, eta[lane], bend[lane]);
+            passes.set(lane, refracted.is_some());
+            let v = refracted.unwrap_or_default();
+            for (part, component) in parts.iter_mut().zip([v.x, v.y, v.z]) {
+                part[lane] = component;
+            }
+        }
+        let [x, y, z] = parts;
+        direction = Vec3s::new(
+            Numbers::from_array(simd, x),
+            Numbers::from_array(simd, y),
+            Numbers::from_array(simd, z),
+        );
+    }
+    (direction, passes)
 }
 
 /// `Tracer::phong_power`.
 #[inline(always)]
-fn phong_power<S: Simd>(simd: S, alignment: Numbers<S>, material: &Material) -> Numbers<S> {
-    let one = Numbers::splat(simd, 1.0);
-    let base = alignment.simd_lt(one).select(alignment, one);
+fn phong_power<S: Simd>(alignment: Numbers<S>, material: &Material) -> Numbers<S> {
+    let one = alignment.constant(1.0);
+    let base = Numbers::select(alignment.simd_lt(one), alignment, one);
     match material.whole_shininess() {
-        Material::<f32>::FRACTIONAL => powf(simd, base, material.description().shininess),
-        whole => power_of_whole(simd, base, whole),
+        Material::<f32>::FRACTIONAL => base.powf(material.description().shininess),
+        whole => shading::power(base, whole),
     }
 }

@@ -11,22 +11,23 @@ mod tests;
 mod wide;
 
 use fearless_simd::prelude::*;
-use scanray::Vec3;
 use scanray::accel::{Bvh, BvhNode, NodeContent};
+use scanray::{Number, Vec3};
 
 use self::single::Single;
 pub(super) use self::single::WaitingParts;
 use self::wide::{WidePart, WideTree};
 use super::batch::{Batch, Group, NOTHING};
-use super::lanes::{Indices, LANES, Mask, Numbers, Rays, Vec3s, first_lanes};
-use super::shade::hits;
-use super::{Closest, PacketTracer, shapes};
+use super::lanes::{InLanes, Indices, LANES, Mask, Numbers, Rays, Vec3s, first_lanes};
+use super::shade::{TowardLight, hits};
+use super::shapes::LeafObject;
+use super::{Closest, PacketTracer};
 
 /// The tree of a scene in other layouts.
 #[derive(Debug)]
-pub(super) struct PacketTree {
-    pairs: PairTree,
-    /// For single rays, if there are many spheres and nothing else: triangles are tested one at a time, by eight
+pub(super) struct PacketTree<'a> {
+    pairs: PairTree<'a>,
+    /// For single rays, if there are many spheres and nothing else: other objects are tested one at a time, by eight
     /// rays sooner than by one.
     wide: Option<WideTree>,
 }
@@ -34,11 +35,11 @@ pub(super) struct PacketTree {
 /// For eight rays: a node has the boxes of its children, so that two are tested at once, subtrees are in one place,
 /// and leaves have with them what the tests of objects begin with.
 #[derive(Debug, Default)]
-struct PairTree {
+struct PairTree<'a> {
     /// Index and count of the root, as of the halves of a pair.
     root: (u32, u8),
     nodes: Vec<Pair>,
-    leaves: Vec<LeafObject>,
+    leaves: Vec<LeafObject<'a>>,
 }
 
 /// Two nodes.
@@ -57,27 +58,13 @@ struct Pair {
     wide: WidePart,
 }
 
-/// An object in a leaf.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct LeafObject {
-    /// The sphere, or the ball around the triangle.
-    pub(super) center: Vec3,
-    pub(super) radius_squared: f32,
-    /// Its index among all objects.
-    pub(super) index: u32,
-    pub(super) is_triangle: bool,
-    pub(super) casts_shadow: bool,
-    /// Its index among those of its shape.
-    pub(super) of_shape: u32,
-}
-
 /// So many rays of a vector do not go on together where there is a tree for single ones.
 const FEW: u32 = 3;
 
 /// In a tree of fewer spheres the rays of a vector had better stay together.
 pub(super) const FEWEST_FOR_SINGLES: usize = 4096;
 
-impl PacketTree {
+impl<'a> PacketTree<'a> {
     /// Whether single rays have a tree of their own.
     pub(super) fn has_singles(&self) -> bool {
         self.wide.is_some()
@@ -87,7 +74,7 @@ impl PacketTree {
     /// which the scene's own builder does not make. Single rays have a tree if there are `fewest_for_singles`
     /// spheres.
     pub(super) fn new<const STACK: usize>(
-        packets: &PacketTracer<'_, STACK>,
+        packets: &PacketTracer<'a, STACK>,
         fewest_for_singles: usize,
     ) -> Option<Self> {
         let tree = packets.tracer.scene().accel().bvh();
@@ -99,8 +86,9 @@ impl PacketTree {
             return None;
         }
         let (mut pairs, pair_of) = PairTree::new(packets, tree);
-        let wide = packets.triangles.is_empty() && packets.spheres.len() >= fewest_for_singles;
-        let wide = wide.then(|| WideTree::new(tree, &mut pairs, &pair_of));
+        let spheres = packets.shapes.balls_alone();
+        let wide = (spheres > 0 && spheres >= fewest_for_singles)
+            .then(|| WideTree::new(tree, &mut pairs, &pair_of));
         Some(Self {
             pairs,
             wide: wide.flatten(),
@@ -108,11 +96,11 @@ impl PacketTree {
     }
 }
 
-impl PairTree {
+impl<'a> PairTree<'a> {
     /// The tree in this layout, and for each of its nodes the index of the pair or of the first object of the
     /// leaf.
     fn new<const STACK: usize>(
-        packets: &PacketTracer<'_, STACK>,
+        packets: &PacketTracer<'a, STACK>,
         tree: Bvh<'_>,
     ) -> (Self, Vec<u32>) {
         let mut new = Self::default();
@@ -124,8 +112,10 @@ impl PairTree {
                 NodeContent::Leaf { first, count } => {
                     let start = new.leaves.len() as u32;
                     let entries = &tree.entries[first as usize..][..count as usize];
-                    new.leaves
-                        .extend(entries.iter().map(|entry| packets.leaf_object(*entry)));
+                    new.leaves.extend(entries.iter().map(|entry| {
+                        let target = &packets.objects[*entry as usize];
+                        LeafObject::new(target.object, *entry, target.casts_shadow)
+                    }));
                     (start, count as u8)
                 }
                 NodeContent::Inner { first, axis } => {
@@ -159,7 +149,7 @@ impl PairTree {
 
 /// A walk of eight rays through a tree.
 struct Walk<'a, S: Simd> {
-    tree: &'a PacketTree,
+    tree: &'a PacketTree<'a>,
     inverse: Vec3s<S>,
     /// The origins, moved by the margin for the rays, to compare with the lowest and the highest
     /// coordinates of boxes.
@@ -185,7 +175,7 @@ struct Waiting {
 /// Where a walk comes to.
 enum Visit<'a> {
     /// Objects that some of the rays may meet.
-    Leaf(&'a [LeafObject]),
+    Leaf(&'a [LeafObject<'a>]),
     /// A part of the tree that only a few of the rays may meet, a bit for each.
     Few(&'a WideTree, WidePart, u8),
 }
@@ -201,12 +191,12 @@ enum Leading<S: Simd> {
 
 impl<'a, S: Simd> Walk<'a, S> {
     #[inline(always)]
-    fn new(simd: S, tree: &'a PacketTree, rays: &Rays<S>, active: Mask<S>) -> Self {
+    fn new(tree: &'a PacketTree<'a>, rays: &Rays<S>, active: Mask<S>) -> Self {
         let (o, d) = (rays.origin, rays.direction);
-        let one = Numbers::splat(simd, 1.0);
+        let one = d.x.constant(1.0);
         let size = o.abs();
-        let margin = (size.x + size.y + size.z) * (f32::EPSILON * 64.0);
-        let margin = Vec3s::new(margin, margin, margin);
+        let margin = (size.x + size.y + size.z) * one.constant(64.0 * Numbers::<S>::ULP);
+        let margin = Vec3s::splat(margin);
         let most = |mask: Mask<S>| {
             let negative = (mask & active).to_bitmask().count_ones();
             usize::from(2 * negative > active.to_bitmask().count_ones())
@@ -321,7 +311,8 @@ impl<'a, S: Simd> Walk<'a, S> {
             Leading::Same(1) => y,
             Leading::Same(_) => z,
             Leading::Mixed(by_x, by_y) => {
-                let select = |i: usize| by_x.select(x[i], by_y.select(y[i], z[i]));
+                let select =
+                    |i: usize| Numbers::select(by_x, x[i], Numbers::select(by_y, y[i], z[i]));
                 [select(0), select(1)]
             }
         };
@@ -349,49 +340,23 @@ impl<S: Simd> Closest<S> {
         single: impl Fn(usize) -> Single<'w>,
         waiting: &mut WaitingParts,
     ) {
-        let mut t: [f32; LANES] = self.t.into();
+        let mut t = self.t.to_array();
         let mut object: [u32; LANES] = self.object.into();
         for lane in bits(lanes) {
             let known = (t[lane], object[lane]);
             (t[lane], object[lane]) = single(lane).nearest(simd, waiting, known);
         }
-        self.t = Numbers::simd_from(simd, t);
+        self.t = Numbers::from_array(simd, t);
         self.object = Indices::simd_from(simd, object);
     }
 }
 
 impl<const STACK: usize> PacketTracer<'_, STACK> {
-    fn leaf_object(&self, index: u32) -> LeafObject {
-        let triangles = self.spheres.len() + self.planes.len();
-        let triangle = (index as usize).wrapping_sub(triangles);
-        match self.triangles.get(triangle) {
-            Some(listed) => LeafObject {
-                center: listed.shape.ball_center(),
-                radius_squared: listed.shape.ball_radius_squared(),
-                index,
-                is_triangle: true,
-                casts_shadow: listed.casts_shadow,
-                of_shape: triangle as u32,
-            },
-            None => {
-                let listed = &self.spheres[index as usize];
-                LeafObject {
-                    center: listed.shape.center(),
-                    radius_squared: listed.shape.radius_squared(),
-                    index,
-                    is_triangle: false,
-                    casts_shadow: listed.casts_shadow,
-                    of_shape: index,
-                }
-            }
-        }
-    }
-
-    /// `meet`, for rays that may leave any sides. `Tracer::closest_in_tree`, and the planes.
+    /// `meet`, for rays that may leave any sides. `Tracer::closest_in_bvh`.
     pub(super) fn meet_by_tree<S: Simd, const SINGLES: bool>(
         &self,
         simd: S,
-        tree: &PacketTree,
+        tree: &PacketTree<'_>,
         batch: &mut Batch,
         at: usize,
     ) -> usize {
@@ -406,12 +371,9 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                 let active = first_lanes(simd, count);
                 let leaves = Indices::from_slice(simd, &batch.leaves[at..at + LANES]) >> 1;
                 let mut closest = Closest::none(simd);
-                for plane in &self.planes {
-                    let t = shapes::meet_plane(simd, plane.shape, &rays);
-                    let lanes = !leaves.simd_eq(plane.index);
-                    closest.offer(simd, t, lanes, plane.index);
-                }
-                let mut walk = Walk::new(simd, tree, &rays, active);
+                self.shapes
+                    .meet_unbounded(simd, &rays, leaves, &mut closest);
+                let mut walk = Walk::new(tree, &rays, active);
                 while let Some(visit) = walk.next::<SINGLES>(simd, closest.t, active) {
                     let objects = match visit {
                         Visit::Leaf(objects) => objects,
@@ -422,23 +384,7 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                         }
                     };
                     for object in objects {
-                        if !object.is_triangle {
-                            let (center, square) = (object.center, object.radius_squared);
-                            if let Some(t) = shapes::meet_sphere(simd, center, square, &rays) {
-                                closest.offer(simd, t, active, object.index);
-                            }
-                        } else {
-                            let triangle = &self.triangles[object.of_shape as usize];
-                            if let Some(meeting) =
-                                shapes::meet_triangle(simd, triangle.shape, &rays)
-                            {
-                                let lanes = meeting.inside & !leaves.simd_eq(triangle.index);
-                                let closer = closest.offer(simd, meeting.t, lanes, triangle.index);
-                                for (place, new) in closest.place.iter_mut().zip(meeting.place) {
-                                    *place = closer.select(new, *place);
-                                }
-                            }
-                        }
+                        object.meet(simd, &rays, leaves, &mut closest);
                     }
                 }
                 self.keep(simd, &closest, rays.direction, batch, at);
@@ -452,7 +398,7 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
     pub(super) fn cast_shadows<S: Simd, const SINGLES: bool>(
         &self,
         simd: S,
-        tree: &PacketTree,
+        tree: &PacketTree<'_>,
         batch: &mut Batch,
         groups: &[Group],
     ) {
@@ -478,19 +424,12 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                     let mut lit = [0; LANES];
                     for (number, light) in self.tracer.scene().lights().iter().enumerate() {
                         // As in `local_color`.
-                        let to_light = Vec3s::splat(simd, light.position) - origin;
-                        let toward = normal.dot(to_light);
-                        let distance_squared = to_light.dot(to_light);
-                        let facing = valid & toward.simd_gt(0.0) & distance_squared.simd_gt(0.0);
+                        let toward = TowardLight::new(simd, light, origin, normal);
+                        let facing = valid & toward.is_facing();
                         if !facing.any_true() {
                             continue;
                         }
-                        let distance = distance_squared.sqrt();
-                        let inverse = Numbers::splat(simd, 1.0) / distance;
-                        let shadow = Rays {
-                            origin,
-                            direction: to_light * inverse,
-                        };
+                        let (shadow, distance, _) = toward.shadow(origin);
                         let occluded = self.occluded_by_tree::<S, SINGLES>(
                             simd,
                             tree,
@@ -512,12 +451,12 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
     }
 
     /// The lanes of a mask whose rays, which leave objects, meet one that casts a shadow before `t_max`, and all
-    /// others. `Tracer::occluded`.
+    /// others. `Tracer::occluded_in_bvh`.
     #[expect(clippy::too_many_arguments)]
     fn occluded_by_tree<S: Simd, const SINGLES: bool>(
         &self,
         simd: S,
-        tree: &PacketTree,
+        tree: &PacketTree<'_>,
         rays: &Rays<S>,
         waiting: &mut WaitingParts,
         leaves: Indices<S>,
@@ -528,14 +467,9 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
             #[inline(always)]
             || {
                 let mut occluded = !lanes;
-                for plane in &self.planes {
-                    if plane.casts_shadow {
-                        let t = shapes::meet_plane(simd, plane.shape, rays);
-                        let lanes = !leaves.simd_eq(plane.index);
-                        occluded |= lanes & t.simd_gt(0.0) & t.simd_lt(t_max);
-                    }
-                }
-                let mut walk = Walk::new(simd, tree, rays, lanes);
+                self.shapes
+                    .occlude_unbounded(simd, rays, leaves, t_max, &mut occluded);
+                let mut walk = Walk::new(tree, rays, lanes);
                 while !occluded.all_true()
                     && let Some(visit) = walk.next::<SINGLES>(simd, t_max, !occluded)
                 {
@@ -552,21 +486,7 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                         }
                     };
                     for object in objects {
-                        if !object.casts_shadow {
-                            continue;
-                        }
-                        if !object.is_triangle {
-                            let (center, square) = (object.center, object.radius_squared);
-                            occluded |= shapes::sphere_occludes(simd, center, square, rays, t_max);
-                        } else {
-                            let triangle = &self.triangles[object.of_shape as usize];
-                            if let Some(meeting) = shapes::meet_triangle(simd, triangle.shape, rays)
-                            {
-                                let t = meeting.t;
-                                let lanes = meeting.inside & !leaves.simd_eq(triangle.index);
-                                occluded |= lanes & t.simd_gt(0.0) & t.simd_lt(t_max);
-                            }
-                        }
+                        object.occlude(simd, rays, leaves, t_max, &mut occluded);
                     }
                 }
                 occluded

@@ -1,15 +1,16 @@
 //! Single rays through a part of a tree of spheres, eight boxes or eight spheres at a time.
 //!
-//! A ray meets a sphere in its box whichever axis is asked (`visibility::tree` of the core: the point that the
+//! A ray meets a sphere in its box whichever axis is asked (`accel::bvh` of the core: the point that the
 //! test reports lies on the sphere but for rounding, which the boxes have a margin for), so that all axes may
 //! tell that a box is behind the ray or too far. The core, whose boxes may hold triangles, asks one.
 
 use fearless_simd::prelude::*;
 use scanray::Vec3;
+use scanray::formula::sphere::{chord, crossings};
 
 use super::Walk;
 use super::wide::{WideChild, WideLeaf, WideNode, WidePart, WideTree};
-use crate::packet::lanes::{LANES, Mask, Numbers, Rays, Vec3s};
+use crate::packet::lanes::{InLanes, LANES, Mask, Numbers, Rays, Vec3s};
 
 /// The most that may wait to be visited.
 pub(super) const MOST_WAITING: usize = 256;
@@ -58,9 +59,11 @@ impl Axis {
     fn slabs<S: Simd>(&self, simd: S, ends: &[[f32; LANES]; 2]) -> [Numbers<S>; 2] {
         let entry = self.entry & 1;
         let end = |end: usize| Numbers::from_slice(simd, &ends[end]);
+        let [to, from] = self.origin;
+        let inverse = Numbers::splat(simd, self.inverse);
         [
-            (end(entry) - self.origin[0]) * self.inverse,
-            (end(entry ^ 1) - self.origin[1]) * self.inverse,
+            (end(entry) - Numbers::splat(simd, to)) * inverse,
+            (end(entry ^ 1) - Numbers::splat(simd, from)) * inverse,
         ]
     }
 }
@@ -170,14 +173,14 @@ impl<'w> Single<'w> {
     ) -> (f32, u32) {
         let mut walk = self.walk(simd, waiting, t_max);
         while let Some(leaf) = walk.next_leaf(simd, t_max) {
-            let [near, far] = self.crossings(simd, leaf);
-            let t = near.simd_gt(0.0).select(near, far);
+            let (near, far) = self.crossings(simd, leaf);
+            let t = Numbers::select(near.simd_gt(0.0), near, far);
             let met = t.simd_gt(0.0) & t.simd_le(t_max);
             let mut met = met.to_bitmask() as u32;
             if met == 0 {
                 continue;
             }
-            let t: [f32; LANES] = t.into();
+            let t = t.to_array();
             while met != 0 {
                 let lane = met.trailing_zeros() as usize % LANES;
                 met &= met - 1;
@@ -201,7 +204,7 @@ impl<'w> Single<'w> {
     ) -> bool {
         let mut walk = self.walk(simd, waiting, t_max);
         while let Some(leaf) = walk.next_leaf(simd, t_max) {
-            let [near, far] = self.crossings(simd, leaf);
+            let (near, far) = self.crossings(simd, leaf);
             let met =
                 (near.simd_gt(0.0) & near.simd_lt(t_max)) | (far.simd_gt(0.0) & far.simd_lt(t_max));
             if met.to_bitmask() as u8 & leaf.casts_shadow != 0 {
@@ -213,15 +216,14 @@ impl<'w> Single<'w> {
 
     /// `Sphere::crossings` with those of a leaf: NaN for none.
     #[inline(always)]
-    fn crossings<S: Simd>(&self, simd: S, leaf: &WideLeaf) -> [Numbers<S>; 2] {
+    fn crossings<S: Simd>(&self, simd: S, leaf: &WideLeaf) -> (Numbers<S>, Numbers<S>) {
         let row = |row: &[f32; LANES]| Numbers::from_slice(simd, row);
         let [x, y, z] = &leaf.center;
-        let direction = Vec3s::splat(simd, self.direction);
-        let f = Vec3s::new(row(x), row(y), row(z)) - Vec3s::splat(simd, self.origin);
-        let b = f.dot(direction);
-        let l = f - direction * b;
-        let half_chord = (row(&leaf.radius_squared) - l.dot(l)).sqrt();
-        [b - half_chord, b + half_chord]
+        let center = Vec3s::new(row(x), row(y), row(z));
+        let origin = Vec3s::in_every_lane(simd, self.origin);
+        let direction = Vec3s::in_every_lane(simd, self.direction);
+        let (middle, square) = chord(center, row(&leaf.radius_squared), origin, direction);
+        crossings(middle, square)
     }
 }
 
@@ -280,7 +282,7 @@ impl<'w> SingleWalk<'w> {
         if met == 0 {
             return Some(node.children[lane]);
         }
-        let entry: [f32; LANES] = entry.into();
+        let entry = entry.to_array();
         let mut nearest = Waiting::new(entry[lane], node.children[lane]);
         while met != 0 {
             let lane = met.trailing_zeros() as usize % LANES;

@@ -85,7 +85,7 @@ fn check_layouts(name: &str, scene: Scene<'_>) {
         },
     );
     all.sort_unstable();
-    // Spheres come before the floor.
+    // Indices count through the spheres first, whatever the order of the text.
     let expected: Vec<u32> = (0..scene.spheres().len() as u32).collect();
     assert_eq!(all, expected, "{name}");
     for (index, pair) in tree.pairs.nodes.iter().enumerate() {
@@ -104,7 +104,7 @@ fn check_layouts(name: &str, scene: Scene<'_>) {
     }
 }
 
-fn spheres_of_pair(tree: &PairTree, index: usize) -> Vec<u32> {
+fn spheres_of_pair(tree: &PairTree<'_>, index: usize) -> Vec<u32> {
     let mut spheres = Vec::new();
     let mut waiting = vec![index as u32];
     while let Some(index) = waiting.pop() {

@@ -60,7 +60,7 @@ pub(super) struct WideLeaf {
 }
 
 impl WideLeaf {
-    fn new<'o>(objects: impl Iterator<Item = &'o LeafObject>) -> Self {
+    fn new<'o>(objects: impl Iterator<Item = &'o LeafObject<'o>>) -> Self {
         let mut leaf = Self {
             center: [[0.0; LANES]; 3],
             // Less every square is no square.
@@ -69,11 +69,11 @@ impl WideLeaf {
             casts_shadow: 0,
         };
         for (lane, object) in objects.enumerate() {
-            let Vec3 { x, y, z } = object.center;
+            let Vec3 { x, y, z } = object.ball.center;
             for (row, coordinate) in leaf.center.iter_mut().zip([x, y, z]) {
                 row[lane] = coordinate;
             }
-            leaf.radius_squared[lane] = object.radius_squared;
+            leaf.radius_squared[lane] = object.ball.radius_squared;
             leaf.index[lane] = object.index;
             leaf.casts_shadow |= u8::from(object.casts_shadow) << lane;
         }
@@ -103,7 +103,7 @@ impl WideTree {
     /// Collapses a tree, none of whose leaves has more than eight objects, and enters in the pairs which part
     /// of the wide tree each of them is. `pair_of` has the pair of each inner node of the tree, and the first
     /// object of each leaf. Nothing for a tree that is too deep for a walk.
-    pub(super) fn new(tree: Bvh<'_>, pairs: &mut PairTree, pair_of: &[u32]) -> Option<Self> {
+    pub(super) fn new(tree: Bvh<'_>, pairs: &mut PairTree<'_>, pair_of: &[u32]) -> Option<Self> {
         let collapse = Collapse::of(tree);
         let mut new = Self::default();
         // Nodes of the tree that become wide ones, where they are entered, and how deep they are.

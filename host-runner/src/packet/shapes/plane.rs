@@ -1,0 +1,44 @@
+//! Eight rays and a plane.
+
+use fearless_simd::prelude::*;
+use scanray::formula::plane::{offset, project, rise};
+use scanray::shape::Plane;
+
+use super::{Ball, LaneShape, Meeting, Point};
+use crate::packet::batch::{Batch, Lanes};
+use crate::packet::lanes::{InLanes, Mask, Numbers, Rays, Vec3s};
+
+impl LaneShape for Plane {
+    const HAS_BOUNDS: bool = false;
+    const IS_BALL: bool = false;
+    const IS_FLAT: bool = true;
+
+    #[inline(always)]
+    fn ball(&self) -> Ball {
+        Ball::default()
+    }
+
+    #[inline(always)]
+    fn meetings<S: Simd>(&self, simd: S, _: Ball, rays: &Rays<S>) -> Option<Meeting<S>> {
+        let normal = Vec3s::in_every_lane(simd, self.normal());
+        let height = Numbers::splat(simd, self.height());
+        let (below, slope) = rise(normal, height, rays.origin, rays.direction);
+        Some(Meeting {
+            lanes: Mask::splat(simd, true),
+            t: below / slope,
+            place: None,
+        })
+    }
+
+    #[inline(always)]
+    fn points<S: Simd>(&self, simd: S, rays: &Rays<S>, batch: &Batch, lanes: &Lanes) -> Point<S> {
+        let normal = Vec3s::in_every_lane(simd, self.normal());
+        let height = Numbers::splat(simd, self.height());
+        let point = project(rays.at(batch.distances(simd, lanes)), normal, height);
+        Point {
+            point,
+            normal,
+            offset: offset(point, normal, height),
+        }
+    }
+}
