@@ -137,7 +137,7 @@ class Board:
         if self.name == "mps2-an386":
             check(f"{column} boulder", lambda: self.picture("boulder", self.large["boulder"], "boulder", "size"))
             check(f"{column} boulder without tree",
-                  lambda: self.picture("boulder", self.large["boulder"], "boulder without tree", "size", "TREE"))
+                  lambda: self.picture("boulder", self.large["boulder"], "boulder without tree", "size", "BVH"))
             check(f"{column} gem, parsed and its tree built on the board", self.parsed_tree)
             check(f"{column} a stage that is left out is named by the compiler", self.missing_stage)
             for profile in BOARDS[self.name][3]:
@@ -207,7 +207,7 @@ class Board:
             if abs(instructions - measured.instructions) > 1:
                 raise Failed(f"the profiler counts {instructions:.1f} instructions a pixel, the board {measured.instructions:.1f}")
         # The tree is for speed alone.
-        if without in ("NONE", "TREE"):
+        if without in ("NONE", "BVH"):
             self.crcs[scene] = measured.crc
             if measured.crc != self.expected.get(scene):
                 raise Failed(f"CRC-32 {measured.crc}, the host's is {self.expected.get(scene)}")

@@ -129,6 +129,7 @@ impl<T: Scalar> Primitive<T> for Disc<T> {
     const KIND: Kind = Kind::Disc;
     const STAGE: Stages = Stages::DISCS;
     const IS_FLAT: bool = true;
+    const IS_BOUNDED: bool = true;
     const HAS_PLACE: bool = false;
 
     fn shape(&self) -> Shape<T> {

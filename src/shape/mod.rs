@@ -238,6 +238,8 @@ pub(crate) trait Primitive<T: Scalar>: Copy {
     const STAGE: Stages;
     /// A ray that leaves it cannot hit it again, whatever rounding says.
     const IS_FLAT: bool;
+    /// It can be in a box of the hierarchy.
+    const IS_BOUNDED: bool;
     /// [`Primitive::point`] needs the place that [`Primitive::hit`] tells.
     const HAS_PLACE: bool;
 

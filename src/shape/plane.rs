@@ -108,6 +108,7 @@ impl<T: Scalar> Primitive<T> for Plane<T> {
     const KIND: Kind = Kind::Plane;
     const STAGE: Stages = Stages::PLANES;
     const IS_FLAT: bool = true;
+    const IS_BOUNDED: bool = false;
     const HAS_PLACE: bool = false;
 
     fn shape(&self) -> Shape<T> {

@@ -177,6 +177,7 @@ impl<T: Scalar> Primitive<T> for Sphere<T> {
     const KIND: Kind = Kind::Sphere;
     const STAGE: Stages = Stages::SPHERES;
     const IS_FLAT: bool = false;
+    const IS_BOUNDED: bool = true;
     const HAS_PLACE: bool = false;
 
     fn shape(&self) -> Shape<T> {

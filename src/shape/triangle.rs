@@ -238,6 +238,7 @@ impl<T: Scalar> Primitive<T> for Triangle<T> {
     const KIND: Kind = Kind::Triangle;
     const STAGE: Stages = Stages::TRIANGLES;
     const IS_FLAT: bool = true;
+    const IS_BOUNDED: bool = true;
     const HAS_PLACE: bool = true;
 
     fn shape(&self) -> Shape<T> {

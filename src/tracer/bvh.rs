@@ -31,7 +31,9 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
                     ([$($shape:ident)*]) => {
                         $(if stage(NEEDS, <$shape<T> as Primitive<T>>::STAGE) {
                             let all = <$shape<T>>::all(&self.scene.geometry);
-                            if let Some(object) = all.get(within) {
+                            if <$shape<T> as Primitive<T>>::IS_BOUNDED
+                                && let Some(object) = all.get(within)
+                            {
                                 observer.test_object(object.object(), ray, closest.t);
                                 self.offer(index, object, ray, closest);
                                 continue;
@@ -76,7 +78,9 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
                     ([$($shape:ident)*]) => {
                         $(if stage(NEEDS, <$shape<T> as Primitive<T>>::STAGE) {
                             let all = <$shape<T>>::all(&self.scene.geometry);
-                            if let Some(object) = all.get(within) {
+                            if <$shape<T> as Primitive<T>>::IS_BOUNDED
+                                && let Some(object) = all.get(within)
+                            {
                                 observer.test_object(object.object(), ray, t_max);
                                 if self.is_occluded_by(index, object, ray, t_max) {
                                     return true;

@@ -184,13 +184,15 @@ impl<T: Scalar> Closest<T> {
         place: Barycentric::ZERO,
     };
 
-    /// Takes a hit if it comes before the closest so far: of two at exactly the same distance that of the smaller index,
+    /// Takes a hit if it comes before the closest so far, and tells whether it did: of two at exactly the same distance that of the smaller index,
     /// whatever the order in which they are offered.
     #[inline(always)]
-    fn offer(&mut self, t: T, index: usize, place: Barycentric<T>) {
-        if t.is_before(self.t) || (t == self.t && index < self.index) {
-            *self = Self { t, index, place };
+    fn offer(&mut self, t: T, index: usize) -> bool {
+        let is_closer = t.is_before(self.t) || (t == self.t && index < self.index);
+        if is_closer {
+            (self.t, self.index) = (t, index);
         }
+        is_closer
     }
 }
 
@@ -424,8 +426,10 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     ) {
         if let Some((t, place)) = object.hit(ray, closest.t)
             && !self.is_left::<P>(ray, index)
+            && closest.offer(t, index)
+            && P::HAS_PLACE
         {
-            closest.offer(t, index, place);
+            closest.place = place;
         }
     }
 
