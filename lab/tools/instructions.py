@@ -83,7 +83,7 @@ def main():
     cpu = pathlib.Path("/proc/cpuinfo")
     has_avx2 = cpu.exists() and " avx2 " in cpu.read_text()
 
-    run("cargo", "build", "--quiet", "--release", "-p", "scanray-host", cwd=ROOT)
+    run("cargo", "build", "--quiet", "--release", "-p", "scanray-host", "--target-dir", ROOT / "target", cwd=ROOT)
     program = ROOT / "target/release/scanray"
     counts = {}
     with tempfile.TemporaryDirectory() as folder:
