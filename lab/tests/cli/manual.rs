@@ -7,7 +7,7 @@ fn completions_and_pages_know_the_commands() {
     let folder = Folder::new();
     let script = String::from_utf8(folder.succeed(&["completions", "bash"]).stdout).unwrap();
     assert!(
-        script.contains("_scanray-lab") && script.contains("wait-states"),
+        script.contains("scanray-lab") && script.contains("wait-states"),
         "{script}"
     );
     let page = String::from_utf8(folder.succeed(&["man"]).stdout).unwrap();
