@@ -83,7 +83,8 @@ fn loops_are_needed_where_there_are_several() {
     const LOOPS: Stages = Stages::SEVERAL_SPHERES.union(Stages::SEVERAL_LIGHTS);
     const REST: Stages = Stages::SEVERAL_PLANES
         .union(Stages::SEVERAL_TRIANGLES)
-        .union(Stages::MANY_OBJECTS);
+        .union(Stages::MANY_OBJECTS)
+        .union(Stages::DISCS);
     assert_eq!(Pools::STAGES, Stages::ALL.without(REST));
     let none = ScenePools::<f32, 0, 0, 1, 1, 0>::STAGES;
     assert!(none.contains(Stages::TRIANGLES));

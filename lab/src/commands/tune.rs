@@ -26,7 +26,7 @@ Examples:
   scanray-lab tune scene.txt --target m3 --clock 72MHz --budget 5fps --wait-states 2 --json
 
 Tries maximum depths, cut-offs and ways of sampling, and names the setting with the least error whose time is within the \
-budget at the upper end of its range. Instructions are predicted by a model within about ten per cent; milliseconds are an \
+budget at the upper end of its range. Instructions are predicted by a model within about 15 %; milliseconds are an \
 estimate from the cores' manuals. Errors are those of what the display shows against the scene in f64 with 256 samples a pixel: \
 the root of the mean square in levels of 255; with --dither FLIP, 0 to 1, because the mean square punishes the pattern that the \
 eye averages. Displays of greys are compared with greys.

@@ -92,7 +92,7 @@ pub(crate) fn paragraphs(document: &Document) -> Vec<Paragraph> {
 /// How instructions come about.
 fn instructions(emulation: &Emulation) -> String {
     const MODEL: &str = "from a model: what the tracer does, counted by kind, times what each takes, which was fitted to \
-        pictures drawn under emulation and is within 10 % of them (firmware/tools/instruction_model.py)";
+        pictures drawn under emulation and is within 15 % of them (firmware/tools/instruction_model.py)";
     let unit = "Instructions, not cycles, for each pixel on Cortex-M4F, M3 and M0";
     match emulation {
         Emulation::NotAsked => format!("{unit}, {MODEL}. --emulate counts them instead."),
