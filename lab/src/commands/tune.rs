@@ -22,8 +22,8 @@ use scanray_host::scene_file::SceneSource;
 #[command(after_help = "\
 Examples:
   scanray-lab tune scene.txt --target m4f --clock 168MHz --budget 100ms --size 40x30
-  scanray-lab tune scene.txt --target m0 --clock 16MHz --budget 2s --color gray4 --dither
-  scanray-lab tune scene.txt --target m3 --clock 72MHz --budget 5fps --wait-states 2 --json
+  scanray-lab tune scene.txt --target m0 --clock 16MHz --budget 2s --size 40x30 --dither
+  scanray-lab tune scene.txt --target m3 --clock 72MHz --budget 5fps --size 40x30 --json
 
 Tries maximum depths, cut-offs and ways of sampling, and names the setting with the least error whose time is within the \
 budget at the upper end of its range. Instructions are predicted by a model within about 15 %; milliseconds are an \
