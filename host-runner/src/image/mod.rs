@@ -107,7 +107,7 @@ impl Image {
     }
 }
 
-/// The comment that [`write`] has put into a file.
+/// The comment that [`write()`] has put into a file.
 pub fn comment(file: &[u8]) -> Option<String> {
     match file {
         [0x89, b'P', b'N', b'G', ..] => png::comment(file),
