@@ -41,7 +41,7 @@ pub(crate) enum Command {
     /// Print what a shell needs to complete command lines
     #[command(after_help = "\
 Examples:
-  scanray-lab completions bash > scanray-lab.bash    to ~/.local/share/bash-completion/completions/scanray-lab
+  scanray-lab completions bash > scanray-lab.bash    to ~/.bash_completion
   scanray-lab completions zsh > _scanray-lab         to a folder of $fpath
   scanray-lab completions fish > scanray-lab.fish    to ~/.config/fish/completions/scanray-lab.fish")]
     Completions(CompletionsArgs),
