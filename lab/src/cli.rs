@@ -43,7 +43,7 @@ pub(crate) enum Command {
 Examples:
   scanray-lab completions bash > scanray-lab.bash    to ~/.bash_completion
   scanray-lab completions zsh > _scanray-lab         to a folder of $fpath
-  scanray-lab completions fish > scanray-lab.fish    to ~/.config/fish/completions/scanray-lab.fish")]
+  scanray-lab completions fish > scanray-lab.fish    to ~/.config/fish/completions")]
     Completions(CompletionsArgs),
     /// Print or write manual pages
     #[command(after_help = "\
