@@ -163,7 +163,10 @@ fn settings_that_change_nothing_are_not_worth_having() {
 #[ignore = "builds and emulates firmware: .ci/run runs it"]
 fn instructions_are_counted_where_there_is_an_emulator() {
     let folder = Folder::new();
-    folder.write("a.txt", SMALL_SCENE);
+    // With a mirror, so that a depth matters.
+    let mirror = SMALL_SCENE.replace("1 1 1  0 50 0 0", "1 1 1  0.5 50 0 0");
+    assert_ne!(mirror, SMALL_SCENE);
+    folder.write("a.txt", mirror);
     let run = folder.run(&[
         "report",
         "a.txt",
