@@ -17,7 +17,7 @@ from profiler import profile
 
 SCENES = ("../scenes/default.txt", "../scenes/window-room.txt", "scenes/stage-3-mirrors.txt")
 CORES = ("mps2-an386", "mps2-an385", "microbit")
-TABLE = os.path.normpath(os.path.join(FIRMWARE, "../host-runner/src/cost/mix.txt"))
+TABLE = os.path.normpath(os.path.join(FIRMWARE, "../lab/src/cost/mix.txt"))
 
 
 def transfers(instruction):
