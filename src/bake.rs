@@ -8,13 +8,13 @@ use crate::light::Light;
 use crate::material::Material;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::shape::{ListedShape, Part, StoredEntry, Surface};
+use crate::shape::{ListedShape, ObjectInfo, Part, StoredEntry};
 use crate::vec3::Vec3;
 
 /// A scene as the source of a constant expression of type `Scene<'static, T>`.
 ///
 /// Every number is written so that the compiler reads back the same bits, and everything that loading
-/// derives (normals, bounds, offsets, shared materials, who can meet whom) is written with it: the
+/// derives (normals, bounds, offsets, shared materials, who can hit whom) is written with it: the
 /// device computes nothing and spends no RAM. A build script writes it to a file for `include!`:
 ///
 /// ```
@@ -140,7 +140,7 @@ fn shapes<T: Scalar, P: ListedShape<T>>(
                 }
             }
         }
-        writeln!(f, "{}),", Baked(&object.surface()))?;
+        writeln!(f, "{}),", Baked(&object.info()))?;
     }
     writeln!(f, "    ])")
 }
@@ -186,25 +186,21 @@ impl<T: Scalar> fmt::Display for Baked<'_, Color<T>> {
 
 impl fmt::Display for Baked<'_, StoredEntry> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let StoredEntry {
-            kind,
-            first,
-            surface,
-        } = self.0;
+        let StoredEntry { kind, first, info } = self.0;
         write!(
             f,
             "::scanray::shape::StoredEntry::from_parts(::scanray::shape::Kind::{kind:?}, {first}, {})",
-            Baked(surface)
+            Baked(info)
         )
     }
 }
 
-impl fmt::Display for Baked<'_, Surface> {
+impl fmt::Display for Baked<'_, ObjectInfo> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Surface { material, number } = self.0;
+        let ObjectInfo { material, number } = self.0;
         write!(
             f,
-            "::scanray::shape::Surface {{ material: {material}, number: {number} }}"
+            "::scanray::shape::ObjectInfo {{ material: {material}, number: {number} }}"
         )
     }
 }

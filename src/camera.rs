@@ -47,13 +47,13 @@ impl<T: Scalar> Camera<T> {
     /// `y` of the ray through the centre of row `row`, before normalisation:
     /// `(H − 1 − 2·row)/H`.
     #[inline(always)]
-    pub fn row_height(&self, resolution: Resolution, row: u16) -> T {
-        self.row_height_at(resolution, row, Subpixel::CENTER)
+    pub fn image_plane_y(&self, resolution: Resolution, row: u16) -> T {
+        self.image_plane_y_at(resolution, row, Subpixel::CENTER)
     }
 
-    /// [`Camera::row_height`] of a place in each pixel.
+    /// [`Camera::image_plane_y`] of a place in each pixel.
     #[inline(always)]
-    pub fn row_height_at(&self, resolution: Resolution, row: u16, at: Subpixel) -> T {
+    pub fn image_plane_y_at(&self, resolution: Resolution, row: u16, at: Subpixel) -> T {
         let of = i32::from(at.of);
         let height = i32::from(resolution.height) * of;
         let row = i32::from(row) * of + i32::from(at.row);
@@ -72,19 +72,19 @@ impl<T: Scalar> Camera<T> {
         T::from_i32(of * width - 1) / T::from_i32(of * height)
     }
 
-    /// The ray through the centre of the pixel in `column` of the row at `row_height`:
+    /// The ray through the centre of the pixel in `column` of the row at `image_plane_y`:
     /// `x = (2·column + 1 − W)/H`, exactly opposite for mirrored columns.
     #[inline(always)]
-    pub fn ray(&self, resolution: Resolution, row_height: T, column: u16) -> Ray<T> {
-        self.ray_at(resolution, row_height, column, Subpixel::CENTER)
+    pub fn ray(&self, resolution: Resolution, image_plane_y: T, column: u16) -> Ray<T> {
+        self.ray_at(resolution, image_plane_y, column, Subpixel::CENTER)
     }
 
-    /// [`Camera::ray`] through a place in the pixel, whose row of cells is at `row_height`.
+    /// [`Camera::ray`] through a place in the pixel, whose row of cells is at `image_plane_y`.
     #[inline(always)]
     pub fn ray_at(
         &self,
         resolution: Resolution,
-        row_height: T,
+        image_plane_y: T,
         column: u16,
         at: Subpixel,
     ) -> Ray<T> {
@@ -92,7 +92,7 @@ impl<T: Scalar> Camera<T> {
         let column = i32::from(column) * of + i32::from(at.column);
         let column = T::from_i32(2 * column + 1 - i32::from(resolution.width) * of);
         let height = T::from_i32(i32::from(resolution.height) * of);
-        let direction = formula::camera::direction(Real(column), Real(height), Real(row_height));
+        let direction = formula::camera::direction(Real(column), Real(height), Real(image_plane_y));
         Ray::new(self.position, direction.plain())
     }
 }
@@ -108,8 +108,8 @@ mod tests {
             width: 65_535,
             height: 3,
         };
-        assert_eq!(camera.row_height(resolution, 0), 2.0 / 3.0);
-        assert_eq!(camera.row_height(resolution, 1), 0.0);
+        assert_eq!(camera.image_plane_y(resolution, 0), 2.0 / 3.0);
+        assert_eq!(camera.image_plane_y(resolution, 1), 0.0);
         let left = camera.ray(resolution, 0.0, 0).direction;
         let right = camera.ray(resolution, 0.0, 65_534).direction;
         assert_eq!(left.x, -right.x);

@@ -32,8 +32,8 @@
 //!
 //! # What a scene does not need
 //!
-//! [`Scene::needs`] is a constant function; [`tracer_for!`] compiles only the stages that a
-//! `static` scene needs. At run time objects that a ray cannot meet are not tested, with the same bits: in a
+//! [`Scene::stages`] is a constant function; [`tracer_for!`] compiles only the stages that a
+//! `static` scene needs. At run time objects that a ray cannot hit are not tested, with the same bits: in a
 //! small scene by lists of candidates, in a large one by a bounding-volume hierarchy ([`Bvh`](accel::Bvh)), which is
 //! baked into flash or built in the pools if they have room for it.
 //!
@@ -81,82 +81,71 @@ mod soft_float;
 
 pub mod number;
 
-mod scalar;
+pub mod scalar;
 
-mod vec3;
+pub mod vec3;
 
-mod color;
+pub mod color;
 
 pub mod real;
 
 pub mod formula;
 
-mod stages;
+pub mod stages;
 
 // Geometry.
-mod ray;
+pub mod ray;
 
 pub mod shape;
 
 // What else a scene has.
-mod material;
+pub mod material;
 
-mod light;
+pub mod light;
 
-mod camera;
+pub mod camera;
 
-mod background;
+pub mod background;
 
 // What is known of a scene before the first ray.
 pub mod accel;
 
-mod scene;
+pub mod scene;
 
 #[macro_use]
 pub mod pools;
 
 // Scenes from text, to text and to Rust source.
 #[cfg(feature = "parser")]
-mod parser;
+pub mod parser;
 
 #[cfg(feature = "bake")]
 mod bake;
 
 #[cfg(feature = "print")]
-mod print;
+pub mod print;
 
 // From ray to colour, from colour to display.
-mod tracer;
+pub mod tracer;
 
-mod render;
+pub mod render;
 
-pub use accel::ObjectSet;
 pub use background::Background;
 #[cfg(feature = "bake")]
 pub use bake::bake;
-pub use camera::{Camera, Resolution, Subpixel};
+pub use camera::{Camera, Resolution};
 pub use color::Color;
 pub use light::Light;
-pub use material::{Interface, Material, MaterialDescription};
-pub use number::Number;
+pub use material::{Material, MaterialDescription};
 #[cfg(feature = "parser")]
-pub use parser::{DecimalError, Excerpt, Expected, Found, FromDecimal, ParseError, Range, Report};
-pub use pools::{Pool, PoolUse, PoolsMut, SceneError, ScenePools};
+pub use parser::ParseError;
+pub use pools::{SceneError, ScenePools};
 #[cfg(feature = "print")]
-pub use print::{PrintError, print};
-pub use ray::{ObjectNumber, Ray, Side};
-pub use real::Real;
-pub use render::{
-    Adaptive, AdaptiveScanline, Budget, CenterSample, DisplayColor, Dithered, Exact, Frame,
-    Picture, PixelSource, Progress, Progressive, Quantizer, SampleSource, Supersampled,
-    ThroughRgb888, differ,
-};
+pub use print::print;
+pub use ray::Ray;
+pub use render::Picture;
 pub use scalar::Scalar;
 pub use scene::Scene;
-pub use shape::{Object, Shape};
 pub use stages::Stages;
-pub use tracer::{
-    DEFAULT_MAX_DEPTH, DepthError, LightAtHit, Meeting, MissingStages, Nearest, Observer, RayCount,
-    RayKind, Scanline, TestKind, Tracer, WorkCount,
-};
+pub use tracer::{DEFAULT_MAX_DEPTH, Tracer};
 pub use vec3::Vec3;

@@ -109,7 +109,7 @@ impl<T: Scalar> Material<T> {
         self.bend
     }
 
-    /// For a ray that meets the side its geometric normal points to.
+    /// For a ray that hits the side its geometric normal points to.
     #[inline(always)]
     pub fn entering(&self) -> Interface<T> {
         Interface {

@@ -7,7 +7,7 @@ use crate::light::Light;
 use crate::material::MaterialDescription;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
-use crate::shape::{Kind, Object, Plane, Surface};
+use crate::shape::{Kind, Object, ObjectInfo, Plane};
 use crate::vec3::Vec3;
 
 /// A scene as text in the numeric dialect, one record a line, every number with the fewest digits that read
@@ -129,7 +129,7 @@ impl<T: Scalar> fmt::Display for Text<'_, T> {
                 // `print` has refused others.
                 _ => return Err(fmt::Error),
             }
-            writeln!(f, " {}", Material(&scene.material(object.surface())))?;
+            writeln!(f, " {}", Material(&scene.material(object.info())))?;
         }
         Ok(())
     }
@@ -188,11 +188,11 @@ fn color<T>(c: Color<T>) -> [T; 3] {
 fn plane_numbers<T: Scalar>(plane: &Plane<T>) -> (Vec3<T>, T) {
     let (normal, height) = (plane.normal(), plane.height());
     let makes_it = |normal, distance| {
-        let surface = Surface {
+        let info = ObjectInfo {
             material: 0,
             number: 0,
         };
-        Plane::new(normal, distance, surface)
+        Plane::new(normal, distance, info)
             .is_ok_and(|made| made.normal() == plane.normal() && made.height() == height)
     };
     if makes_it(normal, -height) {
@@ -252,7 +252,7 @@ mod tests {
 
     #[test]
     fn planes_are_found_again_whatever_their_normal_was() {
-        let surface = Surface {
+        let info = ObjectInfo {
             material: 0,
             number: 0,
         };
@@ -269,9 +269,9 @@ mod tests {
             let x = if round % 8 < 2 { zero } else { random() };
             let normal = Vec3::new(x, random(), random());
             let distance = random() * 10.0_f32.powf(10.0 * random());
-            let plane = Plane::new(normal, distance, surface).unwrap();
+            let plane = Plane::new(normal, distance, info).unwrap();
             let (normal, distance) = plane_numbers(&plane);
-            let again = Plane::new(normal, distance, surface).unwrap();
+            let again = Plane::new(normal, distance, info).unwrap();
             // The debug format tells −0 from 0.
             assert_eq!(std::format!("{again:?}"), std::format!("{plane:?}"));
         }

@@ -56,7 +56,7 @@ pub struct Ray<T = f32> {
     pub origin: Vec3<T>,
     /// Where it goes; length 1.
     pub direction: Vec3<T>,
-    /// The surface it leaves. A flat object cannot be met again by a ray that leaves it, which no
+    /// The surface it leaves. A flat object cannot be hit again by a ray that leaves it, which no
     /// rounding may undo; spheres decide by the offset of the origin.
     pub leaves: Side,
 }

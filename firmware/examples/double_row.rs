@@ -12,7 +12,7 @@ use board::{console, crc32::Crc32};
 use cortex_m::peripheral::{Peripherals, SYST, syst::SystClkSource};
 use critical_section::Mutex;
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
-use scanray::{Budget, Frame, Picture, Resolution, Scene, tracer_for};
+use scanray::{render::{Budget, Frame}, tracer_for, Picture, Resolution, Scene};
 
 const WIDTH: usize = 160;
 type Row = [Rgb888; WIDTH];

@@ -11,7 +11,7 @@ use embedded_graphics::{
     pixelcolor::{Rgb888, RgbColor},
     prelude::*,
 };
-use scanray::{Budget, Color, Picture, Progress, Progressive, Resolution, Scene, tracer_for};
+use scanray::{render::{Budget, Progress, Progressive}, tracer_for, Color, Picture, Resolution, Scene};
 
 const WIDTH: usize = 160;
 const HEIGHT: usize = 120;

@@ -13,7 +13,7 @@ use embedded_graphics::{
     },
     prelude::*,
 };
-use scanray::{Exact, Picture, Resolution, Scene, tracer_for};
+use scanray::{render::Exact, tracer_for, Picture, Resolution, Scene};
 
 board::entry!(program);
 

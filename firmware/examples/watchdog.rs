@@ -8,7 +8,7 @@ use embedded_graphics::{
     pixelcolor::{Rgb888, RgbColor},
     prelude::*,
 };
-use scanray::{Budget, Frame, Picture, Progress, Resolution, Scene, tracer_for};
+use scanray::{render::{Budget, Frame, Progress}, tracer_for, Picture, Resolution, Scene};
 use scanray_firmware::hash::Hash;
 
 board::entry!(program, [Rgb888; 160] = [Rgb888::BLACK; 160]);

@@ -2,7 +2,7 @@
 
 use board::{console, crc32::Crc32, stack};
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
-use scanray::{Exact, Picture, PixelSource, Resolution};
+use scanray::{render::{Exact, PixelSource}, Picture, Resolution};
 
 /// Size of the pictures whose hashes and costs are published.
 pub const RESOLUTION: Resolution = Resolution {

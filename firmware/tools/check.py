@@ -136,9 +136,9 @@ class Board:
                 check(f"{column} {scene} ({profile})", lambda: self.picture(scene, path, scene, profile))
         if self.name == "mps2-an386":
             check(f"{column} boulder", lambda: self.picture("boulder", self.large["boulder"], "boulder", "size"))
-            check(f"{column} boulder without tree",
-                  lambda: self.picture("boulder", self.large["boulder"], "boulder without tree", "size", "BVH"))
-            check(f"{column} gem, parsed and its tree built on the board", self.parsed_tree)
+            check(f"{column} boulder without bvh",
+                  lambda: self.picture("boulder", self.large["boulder"], "boulder without bvh", "size", "BVH"))
+            check(f"{column} gem, parsed and its tree built on the board", self.parsed_bvh)
             check(f"{column} a stage that is left out is named by the compiler", self.missing_stage)
             for profile in BOARDS[self.name][3]:
                 check(f"{column} default for a core with a name ({profile})", lambda: self.named_core(profile))
@@ -226,8 +226,8 @@ class Board:
     def cutoff(self):
         return self.compared("cutoff", "default, cut-off 1/256", "cutoff", SCANRAY_CUTOFF="1.0 / 256.0")
 
-    def parsed_tree(self):
-        return self.compared("parsed_tree", "gem, parsed, with tree", "gem", SCANRAY_SCENE=self.large["gem"])
+    def parsed_bvh(self):
+        return self.compared("parsed_bvh", "gem, parsed, with bvh", "gem", SCANRAY_SCENE=self.large["gem"])
 
     def compared(self, program, row, expected, **variables):
         """A program that draws what the host expects by this name."""

@@ -28,10 +28,10 @@ TABLE = os.path.join(FIRMWARE, "..", "host-runner", "src", "cost", "instructions
 CORES = ("M4F", "M3", "M0")
 TERMS = ["repeated_pixels", "block_pixels", "dithered_pixels", "primary_rays", "reflected_rays", "refracted_rays", "shadow_rays", "sphere_tests", "plane_tests", "triangle_tests",
          "exact_sphere_tests", "exact_ball_tests", "slanted_plane_tests", "plane_divisions", "sphere_tests_in_loops",
-         "plane_tests_in_loops", "triangle_tests_in_loops", "sphere_crossings", "ball_crossings", "sphere_hits", "plane_hits",
+         "plane_tests_in_loops", "triangle_tests_in_loops", "sphere_crossings", "bounds_crossings", "sphere_hits", "plane_hits",
          "triangle_hits", "slanted_hits", "bending_hits", "colored_hits", "sky_rays", "lights_behind", "lit", "colored_lit", "lit_glossy",
          "highlights", "row_checks", "rays_among_planes", "rays_among_triangles", "shadow_rays_among_triangles",
-         "box_tests", "tree_rays", "tree_shadow_rays", "added_samples", "compared_pixels", "compared_rays", "compared_tests",
+         "box_tests", "bvh_rays", "bvh_shadow_rays", "added_samples", "compared_pixels", "compared_rays", "compared_tests",
          "compared_rays_among_triangles", "branching_hits", "cutoff_hits"]
 MADE_UP = 12
 # Scenes with a tree -> arguments of `scanray generate`.

@@ -8,7 +8,7 @@ use embedded_graphics::pixelcolor::Rgb888;
 use embedded_graphics::prelude::*;
 use embedded_graphics::primitives::Rectangle;
 use rayon::prelude::*;
-use scanray::{Color, DisplayColor};
+use scanray::{Color, render::DisplayColor};
 
 /// Rows of a picture in the colours of a display.
 ///

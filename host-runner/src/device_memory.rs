@@ -136,7 +136,7 @@ impl DeviceMemory {
     fn with_word<T: Scalar>(scene: &Scene<'_, T>, max_depth: usize, word: usize) -> Self {
         let objects = scene.object_count();
         let bounded = scene.spheres().len() + scene.triangles().len();
-        let in_tree = if bounded < Bvh::<T>::FEWEST_OBJECTS {
+        let in_bvh = if bounded < Bvh::<T>::FEWEST_OBJECTS {
             0
         } else {
             bounded
@@ -150,8 +150,8 @@ impl DeviceMemory {
             pool::<Light<T>>("lights", scene.lights().len()),
             pool::<[Candidates; 2]>("sides", objects).for_speed(),
             pool::<PlaneGrid<T>>("plane grids", scene.planes().len()).with_another(),
-            pool::<BvhNode<T>>("bvh nodes", in_tree).for_speed(),
-            pool::<u32>("bvh entries", in_tree)
+            pool::<BvhNode<T>>("bvh nodes", in_bvh).for_speed(),
+            pool::<u32>("bvh entries", in_bvh)
                 .for_speed()
                 .with_another(),
         ];
@@ -182,7 +182,7 @@ impl DeviceMemory {
             settings: settings.size,
             scene_pools: scene_pools.size,
             tracer: tracer.size,
-            frame: size_of::<scanray::Frame>(),
+            frame: size_of::<scanray::render::Frame>(),
             stack_frame: stack_frame.size,
             // The refracted rays stand in a list of their own, with a length.
             stack: stack_frame.pool(max_depth, word).size + word,
@@ -252,7 +252,7 @@ impl DeviceMemory {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scanray::{FromDecimal, ScenePools};
+    use scanray::{ScenePools, parser::FromDecimal};
 
     /// On this machine a word has its own size, and the compiler knows the rest.
     fn agrees<

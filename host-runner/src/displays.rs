@@ -6,7 +6,7 @@ use clap::ValueEnum;
 use clap::builder::PossibleValue;
 use scanray::Resolution;
 
-use crate::options::{ColorName, name_of};
+use crate::option_values::{ColorName, name_of};
 
 /// What a display shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -163,7 +163,7 @@ mod tests {
                 continue;
             };
             for size in display.also.split(", ").filter(|size| !size.is_empty()) {
-                let size: crate::options::Size = size.parse().unwrap();
+                let size: crate::option_values::Size = size.parse().unwrap();
                 assert_ne!(size.0, display.resolution(), "{}", display.name);
             }
         }

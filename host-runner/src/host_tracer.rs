@@ -3,14 +3,17 @@
 use std::ops::Range;
 
 use scanray::{
-    Color, LightAtHit, Meeting, Object, Observer, PixelSource, Ray, RayCount, RayKind, Resolution,
-    Scalar, Scanline, Scene, Stages, Subpixel, TestKind, Tracer, differ,
+    Color, Ray, Resolution, Scalar, Scene, Stages, Tracer,
+    camera::Subpixel,
+    render::{PixelSource, differ},
+    shape::Object,
+    tracer::{Intersection, LightAtHit, Observer, RayCount, RayKind, Scanline, TestKind},
 };
 
 use crate::cost::{Circumstances, Work};
-use crate::drawing::Workers;
 use crate::failure::Failure;
 use crate::knobs::Knobs;
+use crate::parallel_drawing::Workers;
 use crate::progress::Progress;
 
 /// The largest maximum depth.
@@ -143,7 +146,7 @@ impl<'a, T: Scalar> HostTracer<'a, T> {
     }
 
     /// Whether a neighbour of a pixel, whose centre has this colour, differs from it: see
-    /// [`scanray::Adaptive`].
+    /// [`scanray::render::Adaptive`].
     fn is_edge(&self, scanline: &HostScanline<T>, x: u16, own: Color<T>, threshold: T) -> bool {
         let Resolution { width, height } = self.resolution();
         let [above, beside, below] = &scanline.centers;
@@ -236,8 +239,8 @@ impl<T> Observer<T> for Watch<'_, T> {
         self.0.test_object(object, ray, t_max);
     }
 
-    fn meeting(&mut self, meeting: &Meeting<'_, T>) {
-        self.0.meeting(meeting);
+    fn intersection(&mut self, intersection: &Intersection<'_, T>) {
+        self.0.intersection(intersection);
     }
 
     fn light(&mut self, light: LightAtHit<T>) {

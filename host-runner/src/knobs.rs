@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use clap::ValueEnum;
-use scanray::{Scalar, Subpixel, Supersampled};
+use scanray::{Scalar, camera::Subpixel, render::Supersampled};
 
 /// Settings of a picture that trade time for quality.
 #[derive(Clone, Copy, Debug, PartialEq)]

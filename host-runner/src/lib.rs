@@ -2,7 +2,7 @@
 //!
 //! The program `scanray` is [`run`]; the laboratory (`lab/`) uses the public modules.
 
-mod canonical;
+mod canonical_text;
 mod canvas;
 mod cli;
 pub mod commands;
@@ -11,7 +11,6 @@ pub mod console;
 pub mod cost;
 mod device_memory;
 mod displays;
-pub mod drawing;
 pub mod failure;
 mod host_pixels;
 mod host_tracer;
@@ -19,21 +18,22 @@ pub mod image;
 mod interrupt;
 pub mod knobs;
 mod laboratory;
-mod memory;
-pub mod options;
-pub mod output;
+pub mod option_values;
+pub mod output_files;
+mod output_paths;
 mod packet;
-mod part;
-mod picture_args;
-mod places;
+pub mod parallel_drawing;
+mod picture_memory;
+mod picture_part;
 pub mod pools;
 mod povray;
 pub mod progress;
 mod ray_tree;
 mod render_report;
-mod scene_data;
+mod render_settings;
 pub mod scene_file;
 mod scene_lines;
+mod scene_listing;
 mod turntable;
 
 use std::process::ExitCode;

@@ -2,7 +2,7 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use scanray::{FromDecimal, Scalar, ScenePools};
+use scanray::{Scalar, ScenePools, parser::FromDecimal};
 
 /// Pools with the host's capacities.
 ///

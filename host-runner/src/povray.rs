@@ -8,7 +8,7 @@
 use std::fmt;
 use std::path::Path;
 
-use scanray::{Color, Light, MaterialDescription, Resolution, Scalar, Scene, Shape, Vec3};
+use scanray::{Color, Light, MaterialDescription, Resolution, Scalar, Scene, Vec3, shape::Shape};
 
 /// The share that a surface keeps for its own colour at least, because it is divided by.
 const LEAST_OPACITY: f64 = 1e-3;
@@ -81,7 +81,7 @@ impl<T: Scalar> fmt::Display for PovScene<'_, T> {
             )?;
         }
         for object in self.scene.objects() {
-            let material = self.scene.material(object.surface());
+            let material = self.scene.material(object.info());
             let shape = Geometry(object.shape());
             let look = Look {
                 material: &material,

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::ops::Range;
 
-use scanray::{PoolUse, Resolution, Scalar};
+use scanray::{Resolution, Scalar, pools::PoolUse};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use crate::cost::{Core, MODEL, Work};

@@ -40,10 +40,10 @@ impl Octant {
     }
 }
 
-/// What rays can meet that leave one side of an object.
+/// What rays can hit that leave one side of an object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Candidates {
-    /// Objects that a mirrored or refracted ray can meet first, by the octant of its direction.
+    /// Objects that a mirrored or refracted ray can hit first, by the octant of its direction.
     pub near: [ObjectSet; 8],
     /// Objects that may stand between this side and a light.
     pub occluders: ObjectSet,
@@ -52,21 +52,21 @@ pub struct Candidates {
 }
 
 impl Candidates {
-    /// Anything may be met.
+    /// Anything may be hit.
     pub const ALL: Self = Self {
         near: [ObjectSet::ALL; 8],
         occluders: ObjectSet::ALL,
         shadowed: false,
     };
 
-    /// Objects that a mirrored or refracted ray of a direction can meet first.
+    /// Objects that a mirrored or refracted ray of a direction can hit first.
     #[inline(always)]
     pub fn near<T: Scalar>(&self, direction: Vec3<T>) -> ObjectSet {
         // The index is below 8.
         self.near[Octant::of(direction).index() & 7]
     }
 
-    /// Objects that a mirrored or refracted ray of any direction can meet first.
+    /// Objects that a mirrored or refracted ray of any direction can hit first.
     pub fn near_in_any_direction(&self) -> ObjectSet {
         self.near
             .iter()

@@ -12,7 +12,7 @@
 //! * The margin is 128 units of rounding of `f32` of every length and coordinate that is involved, and
 //!   1/4096 of the radii (`margin`). `f64` uses the same.
 //!
-//! Unbounded planes are excluded only where the argument does not depend on how far away they are met.
+//! Unbounded planes are excluded only where the argument does not depend on how far away they are hit.
 
 mod bvh;
 mod candidates;
@@ -46,7 +46,7 @@ use crate::vec3::Vec3;
 /// drops it when any of them changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accel<'a, T = f32> {
-    /// By [`Side::index`](crate::Side::index); where there is no entry, anything may be hit. If there are any, the materials' own
+    /// By [`Side::index`](crate::ray::Side::index); where there is no entry, anything may be hit. If there are any, the materials' own
     /// [`Material::faint_alignment`] belong to the scene, too.
     pub(crate) sides: &'a [Candidates],
     /// By the plane's index among planes; where there is no entry, what `sides` says may be hit.
@@ -84,7 +84,7 @@ impl<'a, T> Accel<'a, T> {
         !self.sides.is_empty()
     }
 
-    /// What rays can hit that leave each side of each object, by [`Side::index`](crate::Side::index); where there is no
+    /// What rays can hit that leave each side of each object, by [`Side::index`](crate::ray::Side::index); where there is no
     /// entry, anything.
     pub const fn sides(&self) -> &'a [Candidates] {
         self.sides

@@ -6,24 +6,24 @@ use crate::scalar::Scalar;
 use crate::shape::{BoundingSphere, Geometry, Object, Plane};
 use crate::vec3::Vec3;
 
-/// The objects that the camera's rays in the directions `(x, row_height, 1)`, `|x| ≤ half_width`, can
-/// meet.
+/// The objects that the camera's rays in the directions `(x, image_plane_y, 1)`, `|x| ≤ half_width`, can
+/// hit.
 pub(crate) fn visible_in_row<T: Scalar>(
     geometry: &Geometry<'_, T>,
     camera: &Camera<T>,
-    row_height: T,
+    image_plane_y: T,
     half_width: T,
 ) -> ObjectSet {
     let row = Row {
         origin: camera.position,
-        height: row_height,
+        height: image_plane_y,
         half_width,
-        scale_squared: T::ONE + row_height * row_height,
+        scale_squared: T::ONE + image_plane_y * image_plane_y,
     };
     collect(geometry, |object| {
         match (object, object.bounding_sphere()) {
             (Object::Plane(plane), _) => row.may_show_plane(plane),
-            (_, Some(ball)) => row.may_show_ball(ball),
+            (_, Some(bounds)) => row.may_show_sphere(bounds),
             _ => true,
         }
     })
@@ -40,16 +40,16 @@ struct Row<T> {
 }
 
 impl<T: Scalar> Row<T> {
-    fn may_show_ball(&self, ball: BoundingSphere<T>) -> bool {
-        let f = ball.center - self.origin;
+    fn may_show_sphere(&self, bounds: BoundingSphere<T>) -> bool {
+        let f = bounds.center - self.origin;
         // The tracer's tests begin with the same difference: coordinates add no rounding of their own.
-        let reach = ball.radius + margin(size(f), ball.radius);
+        let reach = bounds.radius + margin(size(f), bounds.radius);
         let across = f.y - self.height * f.z;
         // Not on the row, or behind the camera.
         !(across * across > reach * reach * self.scale_squared || -f.z > reach)
     }
 
-    /// A plane is met where its slope along the ray has the sign of its height above the camera, which
+    /// A plane is hit where its slope along the ray has the sign of its height above the camera, which
     /// does not depend on the distance.
     fn may_show_plane(&self, plane: &Plane<T>) -> bool {
         let n = plane.normal();

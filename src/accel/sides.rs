@@ -1,4 +1,4 @@
-//! What rays can meet that leave a side of an object.
+//! What rays can hit that leave a side of an object.
 
 use super::{Candidates, Octant, Source, collect, margin, size};
 use crate::light::Light;
@@ -11,7 +11,7 @@ pub(super) fn sides<T: Scalar>(scene: &Source<'_, T>, object: Object<'_, T>) -> 
     let reach = |front: bool| Candidates {
         near: Octant::ALL.map(|octant| {
             collect(&scene.geometry, |other| {
-                may_meet(object, front, other) && may_lie_ahead(object, octant, other)
+                may_hit(object, front, other) && may_lie_ahead(object, octant, other)
             })
         }),
         occluders: collect(&scene.geometry, |other| {
@@ -27,19 +27,19 @@ pub(super) fn sides<T: Scalar>(scene: &Source<'_, T>, object: Object<'_, T>) -> 
 }
 
 fn is_same<T: Scalar>(a: Object<'_, T>, b: Object<'_, T>) -> bool {
-    a.surface().number == b.surface().number
+    a.info().number == b.info().number
 }
 
-/// Whether a ray that leaves a side of `from` can meet `other` first.
-fn may_meet<T: Scalar>(from: Object<'_, T>, front: bool, other: Object<'_, T>) -> bool {
+/// Whether a ray that leaves a side of `from` can hit `other` first.
+fn may_hit<T: Scalar>(from: Object<'_, T>, front: bool, other: Object<'_, T>) -> bool {
     match from {
-        // Outside, a sphere is convex: it cannot meet itself.
+        // Outside, a sphere is convex: it cannot hit itself.
         Object::Sphere(_) if front => !is_same(from, other),
-        // Inside, the ray meets the sphere itself before anything that lies outside of it.
+        // Inside, the ray hits the sphere itself before anything that lies outside of it.
         Object::Sphere(sphere) => {
-            !has_inside(sphere) || is_same(from, other) || touches_ball(from, other)
+            !has_inside(sphere) || is_same(from, other) || touches_sphere(from, other)
         }
-        // A flat object cannot meet itself.
+        // A flat object cannot hit itself.
         Object::Plane(_) => !is_same(from, other),
         Object::Triangle(triangle) => !is_same(from, other) && !lies_behind(triangle, front, other),
         // What bounds alone tell is asked for all shapes.
@@ -49,22 +49,22 @@ fn may_meet<T: Scalar>(from: Object<'_, T>, front: bool, other: Object<'_, T>) -
 
 /// Whether a ray that leaves an object in a direction of an octant can come to `other`.
 fn may_lie_ahead<T: Scalar>(from: Object<'_, T>, octant: Octant, other: Object<'_, T>) -> bool {
-    let Some(ball) = from.bounding_sphere() else {
+    let Some(bounds) = from.bounding_sphere() else {
         return true;
     };
     match (other, other.bounding_sphere()) {
         (Object::Plane(plane), _) => {
-            // Not where the whole ball lies above the plane, and all directions lead up; or both down.
-            let above = height(plane, ball.center);
-            let is_apart = above.abs() > ball.radius + plane_margin(plane, ball);
+            // Not where the whole sphere lies above the plane, and all directions lead up; or both down.
+            let above = height(plane, bounds.center);
+            let is_apart = above.abs() > bounds.radius + plane_margin(plane, bounds);
             !(is_apart && leads_along(octant, plane.normal(), above > T::ZERO))
         }
-        // A ray from one ball meets the other only if a ray from the origin meets a ball with both radii
-        // around the way from one centre to the other; `across` is that ball's distance from the octant.
+        // A ray from one sphere hits the other only if a ray from the origin hits a sphere with both radii
+        // around the way from one centre to the other; `across` is that sphere's distance from the octant.
         (_, Some(other)) => {
-            let across = outside_part(octant, other.center - ball.center);
-            let radii = ball.radius + other.radius;
-            let reach = radii + margin(size(ball.center) + size(other.center), radii);
+            let across = outside_part(octant, other.center - bounds.center);
+            let radii = bounds.radius + other.radius;
+            let reach = radii + margin(size(bounds.center) + size(other.center), radii);
             !(across.dot(across).sqrt() > reach)
         }
         _ => true,
@@ -96,19 +96,19 @@ fn outside_part<T: Scalar>(octant: Octant, point: Vec3<T>) -> Vec3<T> {
     )
 }
 
-/// Whether something of an object may lie in the ball around another.
-fn touches_ball<T: Scalar>(inside: Object<'_, T>, other: Object<'_, T>) -> bool {
-    let Some(ball) = inside.bounding_sphere() else {
+/// Whether something of an object may lie in the sphere around another.
+fn touches_sphere<T: Scalar>(inside: Object<'_, T>, other: Object<'_, T>) -> bool {
+    let Some(bounds) = inside.bounding_sphere() else {
         return true;
     };
     match (other, other.bounding_sphere()) {
         (Object::Plane(plane), _) => {
-            height(plane, ball.center).abs() <= ball.radius + plane_margin(plane, ball)
+            height(plane, bounds.center).abs() <= bounds.radius + plane_margin(plane, bounds)
         }
         (_, Some(other)) => {
-            let between = other.center - ball.center;
-            let radii = ball.radius + other.radius;
-            let lengths = size(ball.center) + size(other.center);
+            let between = other.center - bounds.center;
+            let radii = bounds.radius + other.radius;
+            let lengths = size(bounds.center) + size(other.center);
             between.dot(between).sqrt() <= radii + margin(lengths, radii)
         }
         _ => true,
@@ -120,12 +120,12 @@ fn height<T: Scalar>(plane: &Plane<T>, point: Vec3<T>) -> T {
     plane.normal().dot(point) - plane.height()
 }
 
-fn plane_margin<T: Scalar>(plane: &Plane<T>, ball: BoundingSphere<T>) -> T {
-    margin(size(ball.center) + plane.height().abs(), ball.radius)
+fn plane_margin<T: Scalar>(plane: &Plane<T>, bounds: BoundingSphere<T>) -> T {
+    margin(size(bounds.center) + plane.height().abs(), bounds.radius)
 }
 
 /// Whether all of `other` lies on the far side of a triangle's plane. Rays leave the triangle towards
-/// the near side, up to their rounding, and the triangle is bounded, so that they do not reach it. (One without a ball is
+/// the near side, up to their rounding, and the triangle is bounded, so that they do not reach it. (One without a sphere is
 /// as good as unbounded.)
 fn lies_behind<T: Scalar>(triangle: &Triangle<T>, front: bool, other: Object<'_, T>) -> bool {
     let normal = if front {
@@ -133,11 +133,11 @@ fn lies_behind<T: Scalar>(triangle: &Triangle<T>, front: bool, other: Object<'_,
     } else {
         -triangle.normal()
     };
-    let Some(ball) = Object::Triangle(triangle).bounding_sphere() else {
+    let Some(bounds) = Object::Triangle(triangle).bounding_sphere() else {
         return false;
     };
     let [corner, ..] = triangle.vertices();
-    let own = size(corner) + ball.radius;
+    let own = size(corner) + bounds.radius;
     let is_behind = |point: Vec3<T>, radius: T| {
         normal.dot(point - corner) + radius < -margin(own + size(point), radius)
     };
@@ -150,7 +150,7 @@ fn lies_behind<T: Scalar>(triangle: &Triangle<T>, front: bool, other: Object<'_,
             .all(|vertex| is_behind(*vertex, T::ZERO)),
         _ => other
             .bounding_sphere()
-            .is_some_and(|ball| is_behind(ball.center, ball.radius)),
+            .is_some_and(|bounds| is_behind(bounds.center, bounds.radius)),
     }
 }
 
@@ -161,33 +161,33 @@ fn may_shade<T: Scalar>(
     light: &Light<T>,
     other: Object<'_, T>,
 ) -> bool {
-    let Some(ball) = from.bounding_sphere() else {
+    let Some(bounds) = from.bounding_sphere() else {
         return !is_same(from, other);
     };
     if is_same(from, other) {
-        // Flat objects are not met by rays that leave them, nor convex ones from outside.
+        // Flat objects are not hit by rays that leave them, nor convex ones from outside.
         return !(from.is_flat() || front && matches!(from, Object::Sphere(_)));
     }
     match (other, other.bounding_sphere()) {
         (Object::Plane(plane), _) => {
             // Both the object and the light strictly on one side?
-            let margin = plane_margin(plane, ball) + margin(size(light.position), T::ZERO);
-            let reach = ball.radius + margin;
-            let (from, to) = (height(plane, ball.center), height(plane, light.position));
+            let margin = plane_margin(plane, bounds) + margin(size(light.position), T::ZERO);
+            let reach = bounds.radius + margin;
+            let (from, to) = (height(plane, bounds.center), height(plane, light.position));
             let above = from > reach && to > margin;
             let below = from < -reach && to < -margin;
             !(above || below)
         }
-        (_, Some(other)) => !lies_beside_light(ball, light.position, other),
+        (_, Some(other)) => !lies_beside_light(bounds, light.position, other),
         _ => true,
     }
 }
 
-/// Whether a ball lies outside of the convex hull of another ball and a point: of all segments from the
-/// other ball to the light.
+/// Whether a sphere lies outside of the convex hull of another sphere and a point: of all segments from the
+/// other sphere to the light.
 ///
 /// The hull lies in the cone of half-angle φ, `sin φ = R/V`, with its tip in the light, at distance `V`
-/// from the ball of radius `R`; for a point at distance `a` along the axis and `h` from it the tangent
+/// from the sphere of radius `R`; for a point at distance `a` along the axis and `h` from it the tangent
 /// plane of the cone is at the distance `h cos φ − (V − a) sin φ`.
 fn lies_beside_light<T: Scalar>(
     from: BoundingSphere<T>,
@@ -203,7 +203,7 @@ fn lies_beside_light<T: Scalar>(
     let margin = margin(lengths, radii);
     let is_apart = other_distance > radii + margin;
     if !(light_distance > from.radius) {
-        // The light is in the ball, and so is the hull.
+        // The light is in the sphere, and so is the hull.
         return is_apart;
     }
     let axis = to_light * (T::ONE / light_distance);
@@ -244,6 +244,6 @@ fn is_shadowed<T: Scalar>(scene: &Source<'_, T>, object: Object<'_, T>, front: b
 fn casts_shadow<T: Scalar>(scene: &Source<'_, T>, object: Object<'_, T>) -> bool {
     scene
         .materials
-        .get(object.surface().material as usize)
+        .get(object.info().material as usize)
         .is_none_or(|material| material.casts_shadow())
 }

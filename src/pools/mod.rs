@@ -29,8 +29,8 @@ use crate::ray::ObjectNumber;
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::shape::{
-    Disc, Kind, Plane, Primitive, Shape, ShapeError, Sphere, Stored, StoredEntry, StoredShape,
-    Surface, Triangle,
+    Disc, Kind, ObjectInfo, Plane, Primitive, Shape, ShapeError, Sphere, Stored, StoredEntry,
+    StoredShape, Triangle,
 };
 use crate::stages::Stages;
 use crate::vec3::Vec3;
@@ -447,7 +447,7 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
                 radius,
             } => self.add_stored(
                 Pool::Discs,
-                |surface| Disc::new(center, normal, radius, surface),
+                |info| Disc::new(center, normal, radius, info),
                 material,
             ),
         }
@@ -464,7 +464,7 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
         radius: T,
         material: MaterialDescription<T>,
     ) -> Result<(), SceneError> {
-        self.add_made(|surface| Sphere::new(center, radius, surface), material)
+        self.add_made(|info| Sphere::new(center, radius, info), material)
     }
 
     /// Adds the plane of the points with `normal·p + distance = 0`.
@@ -478,7 +478,7 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
         distance: T,
         material: MaterialDescription<T>,
     ) -> Result<(), SceneError> {
-        self.add_made(|surface| Plane::new(normal, distance, surface), material)
+        self.add_made(|info| Plane::new(normal, distance, info), material)
     }
 
     /// Adds a triangle.
@@ -491,17 +491,17 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
         vertices: [Vec3<T>; 3],
         material: MaterialDescription<T>,
     ) -> Result<(), SceneError> {
-        self.add_made(|surface| Triangle::new(vertices, surface), material)
+        self.add_made(|info| Triangle::new(vertices, info), material)
     }
 
     /// Adds an object that `make` makes for its surface.
     fn add_made<P: Primitive<T> + PoolEntry<T>>(
         &mut self,
-        make: impl FnOnce(Surface) -> Result<P, ShapeError>,
+        make: impl FnOnce(ObjectInfo) -> Result<P, ShapeError>,
         material: MaterialDescription<T>,
     ) -> Result<(), SceneError> {
         self.has_room(P::POOL)?;
-        let mut object = make(self.next_surface())?;
+        let mut object = make(self.next_info())?;
         object.set_material(self.share(material)?);
         self.accel.clear();
         push(&mut self.lent, object)
@@ -511,11 +511,11 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
     fn add_stored<P: StoredShape<T>>(
         &mut self,
         pool: Pool,
-        make: impl FnOnce(Surface) -> Result<P, ShapeError>,
+        make: impl FnOnce(ObjectInfo) -> Result<P, ShapeError>,
         material: MaterialDescription<T>,
     ) -> Result<(), SceneError> {
         self.has_room(pool)?;
-        let mut object = make(self.next_surface())?;
+        let mut object = make(self.next_info())?;
         object.set_material(self.share(material)?);
         self.accel.clear();
         let full = SceneError::PoolFull {
@@ -534,7 +534,7 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
         let entry = StoredEntry {
             kind: P::KIND,
             first: first as u32,
-            surface: object.surface(),
+            info: object.info(),
         };
         stored.entries.push(entry).map_err(|_| full)
     }
@@ -544,7 +544,7 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
         &mut self,
         pool: Pool,
         index: usize,
-        make: impl FnOnce(Surface) -> Result<P, ShapeError>,
+        make: impl FnOnce(ObjectInfo) -> Result<P, ShapeError>,
     ) -> Result<(), SceneError> {
         let (used, _) = self.lent.room::<D>(pool);
         let missing = SceneError::Missing { pool, index, used };
@@ -555,7 +555,7 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
             .filter(|entry| entry.kind == P::KIND)
             .nth(index)
             .ok_or(missing)?;
-        let object = make(entry.surface)?;
+        let object = make(entry.info)?;
         let first = entry.first as usize;
         if let Some(numbers) = stored.numbers.get_mut(first..first + P::NUMBERS) {
             object.write(numbers);
@@ -578,8 +578,8 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
                 center,
                 normal,
                 radius,
-            } => self.set_stored(Pool::Discs, index, |surface| {
-                Disc::new(center, normal, radius, surface)
+            } => self.set_stored(Pool::Discs, index, |info| {
+                Disc::new(center, normal, radius, info)
             }),
         }
     }
@@ -595,7 +595,7 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
         center: Vec3<T>,
         radius: T,
     ) -> Result<(), SceneError> {
-        self.set_made(index, |surface| Sphere::new(center, radius, surface))
+        self.set_made(index, |info| Sphere::new(center, radius, info))
     }
 
     /// Moves the plane of an index among planes.
@@ -609,7 +609,7 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
         normal: Vec3<T>,
         distance: T,
     ) -> Result<(), SceneError> {
-        self.set_made(index, |surface| Plane::new(normal, distance, surface))
+        self.set_made(index, |info| Plane::new(normal, distance, info))
     }
 
     /// Moves the triangle of an index among triangles.
@@ -618,16 +618,16 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
     ///
     /// As of [`PoolsMut::set`].
     pub fn set_triangle(&mut self, index: usize, vertices: [Vec3<T>; 3]) -> Result<(), SceneError> {
-        self.set_made(index, |surface| Triangle::new(vertices, surface))
+        self.set_made(index, |info| Triangle::new(vertices, info))
     }
 
     fn set_made<P: Primitive<T> + PoolEntry<T>>(
         &mut self,
         index: usize,
-        make: impl FnOnce(Surface) -> Result<P, ShapeError>,
+        make: impl FnOnce(ObjectInfo) -> Result<P, ShapeError>,
     ) -> Result<(), SceneError> {
         let place = entry::<P, T>(&mut self.lent, index)?;
-        *place = make(place.surface())?;
+        *place = make(place.info())?;
         self.accel.clear();
         Ok(())
     }
@@ -644,7 +644,7 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
     }
 
     /// Changes the material of an index, and with it all objects that share it: those that were added with equal materials.
-    /// ([`Surface::material`] of an object is that index.)
+    /// ([`ObjectInfo::material`] of an object is that index.)
     ///
     /// # Errors
     ///
@@ -661,8 +661,8 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
     }
 
     /// The surface of the next object, its material still to be found.
-    fn next_surface(&self) -> Surface {
-        Surface {
+    fn next_info(&self) -> ObjectInfo {
+        ObjectInfo {
             material: 0,
             number: self.lent.scene(self.settings).object_count() as ObjectNumber,
         }

@@ -182,7 +182,7 @@ macro_rules! parse_into_pools {
         /// # Errors
         ///
         /// `ParseError` for the first thing that is wrong; the pools are then empty.
-        pub fn parse(&mut self, text: &[u8]) -> Result<$crate::Report, $crate::ParseError> {
+        pub fn parse(&mut self, text: &[u8]) -> Result<$crate::parser::Report, $crate::ParseError> {
             self.as_mut().parse(text)
         }
     };

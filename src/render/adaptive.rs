@@ -55,7 +55,7 @@ const CENTERS: [(i16, i16); 5] = [(0, 0), (-1, 0), (1, 0), (0, -1), (0, 1)];
 /// # let tracer = scanray::Tracer::new(pools.as_scene());
 /// # let tracer = tracer.with_resolution(scanray::Resolution { width: 16, height: 12 });
 /// # let mut display = MockDisplay::<Rgb888>::new();
-/// use scanray::{Adaptive, CenterSample, Picture};
+/// use scanray::{render::{Adaptive, CenterSample}, Picture};
 ///
 /// let mut centers = [CenterSample::EMPTY; 2 * 16];
 /// let smooth = Adaptive::<_, 16>::new(&tracer, 1.0 / 16.0, &mut centers);

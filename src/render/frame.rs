@@ -4,8 +4,8 @@ use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::{Point, Size};
 use embedded_graphics::primitives::Rectangle;
 
-use super::color::Quantizer;
 use super::picture::{Picture, PixelSource, visible_part};
+use super::quantize::Quantizer;
 use crate::color::Color;
 
 /// How much may be drawn before control returns to the caller.
@@ -65,7 +65,7 @@ pub enum Progress {
 /// # let tracer = tracer.with_resolution(scanray::Resolution { width: 16, height: 12 });
 /// # let mut display = MockDisplay::new();
 /// # fn feed_watchdog() {}
-/// use scanray::{Budget, Frame, Picture, Progress};
+/// use scanray::{render::{Budget, Frame, Progress}, Picture};
 ///
 /// let picture = Picture::new(&tracer);
 /// let mut frame = Frame::of(&picture);

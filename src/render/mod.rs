@@ -2,16 +2,16 @@
 //! samples a pixel.
 
 mod adaptive;
-mod color;
 mod dither;
 mod frame;
 mod picture;
 mod progressive;
+mod quantize;
 mod supersampling;
 
 pub use adaptive::{Adaptive, AdaptiveScanline, CenterSample, differ};
-pub use color::{DisplayColor, Dithered, Exact, Quantizer, ThroughRgb888};
 pub use frame::{Budget, Frame, Progress};
 pub use picture::{Picture, PixelSource};
 pub use progressive::Progressive;
+pub use quantize::{DisplayColor, Dithered, Exact, Quantizer, ThroughRgb888};
 pub use supersampling::{SampleSource, Supersampled};

@@ -9,7 +9,7 @@ use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::{Dimensions, Point, Size};
 use embedded_graphics::primitives::Rectangle;
 
-use super::color::{DisplayColor, Dithered, Exact, Quantizer, ThroughRgb888};
+use super::quantize::{DisplayColor, Dithered, Exact, Quantizer, ThroughRgb888};
 use crate::camera::Resolution;
 use crate::color::Color;
 use crate::scalar::Scalar;
@@ -34,7 +34,9 @@ pub trait PixelSource {
     fn pixel_on(&self, scanline: &Self::Scanline, x: u16) -> (Color<Self::Scalar>, u32);
 }
 
-impl<T: Scalar, const NEEDS: u64, const STACK: usize> PixelSource for Tracer<'_, T, NEEDS, STACK> {
+impl<T: Scalar, const STAGES: u64, const STACK: usize> PixelSource
+    for Tracer<'_, T, STAGES, STACK>
+{
     type Scalar = T;
     type Scanline = Scanline<T>;
 

@@ -5,9 +5,9 @@ use embedded_graphics::draw_target::DrawTarget;
 use embedded_graphics::geometry::{Point, Size};
 use embedded_graphics::primitives::{PointsIter, Rectangle};
 
-use super::color::Quantizer;
 use super::frame::{Budget, Progress};
 use super::picture::{Picture, PixelSource};
+use super::quantize::Quantizer;
 use crate::camera::Resolution;
 use crate::color::Color;
 use crate::scalar::Scalar;
@@ -33,7 +33,7 @@ use crate::scalar::Scalar;
 /// # let mut display = MockDisplay::<Rgb888>::new();
 /// # display.set_allow_overdraw(true);
 /// # fn the_scene_has_changed() -> bool { false }
-/// use scanray::{Budget, Color, Picture, Progress, Progressive};
+/// use scanray::{render::{Budget, Progress, Progressive}, Color, Picture};
 ///
 /// let picture = Picture::new(&tracer);
 /// let mut progressive = Progressive::of(&picture);

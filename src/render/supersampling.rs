@@ -23,7 +23,9 @@ pub trait SampleSource: PixelSource {
     ) -> Color<Self::Scalar>;
 }
 
-impl<T: Scalar, const NEEDS: u64, const STACK: usize> SampleSource for Tracer<'_, T, NEEDS, STACK> {
+impl<T: Scalar, const STAGES: u64, const STACK: usize> SampleSource
+    for Tracer<'_, T, STAGES, STACK>
+{
     #[inline(always)]
     fn scanline_at(&self, y: u16, at: Subpixel) -> Scanline<T> {
         Tracer::scanline_at(self, y, at)
@@ -78,7 +80,7 @@ impl<S: SampleSource> SampleSource for &S {
 /// # let tracer = scanray::Tracer::new(pools.as_scene());
 /// # let tracer = tracer.with_resolution(scanray::Resolution { width: 16, height: 12 });
 /// # let mut display = MockDisplay::<Rgb888>::new();
-/// use scanray::{Picture, Supersampled};
+/// use scanray::{render::Supersampled, Picture};
 ///
 /// Picture::new(Supersampled::<_, 4>::new(&tracer)).draw(&mut display)?;
 /// # Ok::<(), core::convert::Infallible>(())
@@ -89,7 +91,7 @@ impl<S: SampleSource> SampleSource for &S {
 /// ```compile_fail,E0080
 /// # let pools: scanray::ScenePools = scanray::ScenePools::new();
 /// # let tracer = scanray::Tracer::new(pools.as_scene());
-/// scanray::Supersampled::<_, 8>::new(&tracer);
+/// scanray::render::Supersampled::<_, 8>::new(&tracer);
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Supersampled<S, const SAMPLES: usize> {

@@ -1,6 +1,6 @@
 //! A scene: borrowed slices, wherever they are stored.
 
-mod needs;
+mod stages;
 
 use crate::accel::{Accel, Source};
 use crate::background::Background;
@@ -9,13 +9,13 @@ use crate::color::Color;
 use crate::light::Light;
 use crate::material::{Material, MaterialDescription};
 use crate::scalar::Scalar;
-use crate::shape::{Geometry, Object, Plane, Sphere, Stored, Surface, Triangle};
+use crate::shape::{Geometry, Object, ObjectInfo, Plane, Sphere, Stored, Triangle};
 use crate::vec3::Vec3;
 
 /// A view of a scene in [`ScenePools`](crate::ScenePools) or in flash; copying it copies no object.
 ///
 /// What was derived from a scene ([`Accel`]) goes with it: methods that change what it was derived from drop it, so that a picture
-/// may take longer but is never wrong. ([`PoolsMut::prepare`](crate::PoolsMut::prepare) and baking derive it.) An object whose material index is out of
+/// may take longer but is never wrong. ([`PoolsMut::prepare`](crate::pools::PoolsMut::prepare) and baking derive it.) An object whose material index is out of
 /// range shows the background.
 ///
 /// ```
@@ -228,9 +228,9 @@ impl<'a, T: Scalar> Scene<'a, T> {
     }
 
     /// What a surface is made of; all numbers are 0 if the scene has no such material.
-    pub fn material(&self, surface: Surface) -> MaterialDescription<T> {
+    pub fn material(&self, info: ObjectInfo) -> MaterialDescription<T> {
         self.materials
-            .get(surface.material as usize)
+            .get(info.material as usize)
             .map(|m| *m.description())
             .unwrap_or_default()
     }

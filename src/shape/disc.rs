@@ -1,7 +1,7 @@
 //! Flat discs.
 
 use super::{
-    Barycentric, BoundingSphere, Kind, Primitive, Shape, ShapeError, StoredShape, Surface,
+    Barycentric, BoundingSphere, Kind, ObjectInfo, Primitive, Shape, ShapeError, StoredShape,
     SurfacePoint,
 };
 use crate::formula::{self, origin_offset};
@@ -23,7 +23,7 @@ pub struct Disc<T = f32> {
     radius_squared: T,
     radius: T,
     offset: T,
-    surface: Surface,
+    info: ObjectInfo,
 }
 
 impl<T: Scalar> Disc<T> {
@@ -37,7 +37,7 @@ impl<T: Scalar> Disc<T> {
         center: Vec3<T>,
         normal: Vec3<T>,
         radius: T,
-        surface: Surface,
+        info: ObjectInfo,
     ) -> Result<Self, ShapeError> {
         let (normal, _) = normal.try_normalize().ok_or(ShapeError::NormalZero)?;
         if !(radius > T::ZERO) {
@@ -60,7 +60,7 @@ impl<T: Scalar> Disc<T> {
             radius_squared,
             radius,
             offset: origin_offset(components, height.abs()),
-            surface,
+            info,
         })
     }
 
@@ -95,8 +95,8 @@ impl<T: Scalar> Disc<T> {
     }
 
     /// Material and place in the text.
-    pub const fn surface(&self) -> Surface {
-        self.surface
+    pub const fn info(&self) -> ObjectInfo {
+        self.info
     }
 
     /// Distance of the crossing within `0 < t ≤ t_max`.
@@ -141,12 +141,12 @@ impl<T: Scalar> Primitive<T> for Disc<T> {
     }
 
     #[inline(always)]
-    fn surface(&self) -> Surface {
-        self.surface
+    fn info(&self) -> ObjectInfo {
+        self.info
     }
 
     fn set_material(&mut self, material: u32) {
-        self.surface.material = material;
+        self.info.material = material;
     }
 
     fn bounding_sphere(&self) -> Option<BoundingSphere<T>> {
@@ -204,7 +204,7 @@ impl<T: Scalar> StoredShape<T> for Disc<T> {
     }
 
     #[inline(always)]
-    fn read(numbers: &[T], surface: Surface) -> Self {
+    fn read(numbers: &[T], info: ObjectInfo) -> Self {
         let none = [T::ZERO; 10];
         let [
             cx,
@@ -225,7 +225,7 @@ impl<T: Scalar> StoredShape<T> for Disc<T> {
             radius_squared,
             radius,
             offset,
-            surface,
+            info,
         }
     }
 }

@@ -114,7 +114,7 @@ impl<'a, T: Scalar> Geometry<'a, T> {
                 ([$($shape:ident)*]) => {
                     $(
                         if let Some(it) = $shape::all(&geometry).get(told[Kind::$shape.index()])
-                            && next.is_none_or(|next| it.surface().number < next.surface().number)
+                            && next.is_none_or(|next| it.info().number < next.info().number)
                         {
                             next = Some(Object::$shape(it));
                         }
@@ -123,7 +123,7 @@ impl<'a, T: Scalar> Geometry<'a, T> {
             }
             for_each_shape!(earliest);
             if let Some(object) = geometry.stored.get(stored)
-                && next.is_none_or(|next| object.entry.surface.number < next.surface().number)
+                && next.is_none_or(|next| object.entry.info.number < next.info().number)
             {
                 stored += 1;
                 return Some(Object::Stored(object));

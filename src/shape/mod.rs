@@ -7,10 +7,10 @@
 //! `occludes(ray, t_max)`, whether there is any within `0 < t < t_max`. `t_max` must be finite, so
 //! that a distance always is; NaN anywhere is a miss.
 
-mod coarse;
 mod disc;
 mod geometry;
 mod plane;
+mod quick_reject;
 mod sphere;
 mod stored;
 mod triangle;
@@ -221,7 +221,7 @@ impl<T> Shape<T> {
     }
 }
 
-/// A ball around an object.
+/// A sphere around an object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoundingSphere<T = f32> {
     /// Centre.
@@ -247,12 +247,12 @@ pub(crate) trait Primitive<T: Scalar>: Copy {
     fn shape(&self) -> Shape<T>;
 
     /// Material and place in the text.
-    fn surface(&self) -> Surface;
+    fn info(&self) -> ObjectInfo;
 
     /// Another material.
     fn set_material(&mut self, material: u32);
 
-    /// A ball around it; `None` if it is unbounded, or as good as that.
+    /// A sphere around it; `None` if it is unbounded, or as good as that.
     fn bounding_sphere(&self) -> Option<BoundingSphere<T>>;
 
     /// The lowest and the highest coordinates of what rays can hit; `None` if it is unbounded.
@@ -299,8 +299,8 @@ pub(crate) enum Part<T> {
 impl<T: Scalar> Object<'_, T> {
     /// Material and place in the text.
     #[inline(always)]
-    pub fn surface(&self) -> Surface {
-        of_any_shape!(self, it => Primitive::<T>::surface(it))
+    pub fn info(&self) -> ObjectInfo {
+        of_any_shape!(self, it => Primitive::<T>::info(it))
     }
 
     /// Its kind.
@@ -331,7 +331,7 @@ impl<T: Scalar> Object<'_, T> {
         self.bounding_box().is_some()
     }
 
-    /// A ball around it; `None` if it is unbounded, or as good as that.
+    /// A sphere around it; `None` if it is unbounded, or as good as that.
     pub fn bounding_sphere(&self) -> Option<BoundingSphere<T>> {
         of_any_shape!(self, it => Primitive::<T>::bounding_sphere(it))
     }
@@ -339,7 +339,7 @@ impl<T: Scalar> Object<'_, T> {
 
 /// What belongs to an object besides its geometry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Surface {
+pub struct ObjectInfo {
     /// Index of its material in the scene's materials.
     pub material: u32,
     /// Its place in the scene file.

@@ -1,8 +1,8 @@
 //! Infinite planes.
 
 use super::{
-    Barycentric, BoundingSphere, Geometry, Kind, ListedShape, Object, Primitive, Shape, ShapeError,
-    Surface, SurfacePoint,
+    Barycentric, BoundingSphere, Geometry, Kind, ListedShape, Object, ObjectInfo, Primitive, Shape,
+    ShapeError, SurfacePoint,
 };
 use crate::formula;
 use crate::ray::Ray;
@@ -18,7 +18,7 @@ use crate::vec3::Vec3;
 pub struct Plane<T = f32> {
     normal: Vec3<T>,
     height: T,
-    surface: Surface,
+    info: ObjectInfo,
 }
 
 impl<T: Scalar> Plane<T> {
@@ -28,21 +28,21 @@ impl<T: Scalar> Plane<T> {
     /// # Errors
     ///
     /// [`ShapeError::NormalZero`], [`ShapeError::DistanceTooLarge`].
-    pub fn new(normal: Vec3<T>, distance: T, surface: Surface) -> Result<Self, ShapeError> {
+    pub fn new(normal: Vec3<T>, distance: T, info: ObjectInfo) -> Result<Self, ShapeError> {
         let (normal, [largest, length]) = normal.try_normalize().ok_or(ShapeError::NormalZero)?;
         let height = -(distance / largest / length);
         if !height.is_finite() {
             return Err(ShapeError::DistanceTooLarge);
         }
-        Ok(Self::from_parts(normal, height, surface))
+        Ok(Self::from_parts(normal, height, info))
     }
 
     /// A plane from values that [`Plane::new`] has computed: for baked scenes.
-    pub const fn from_parts(normal: Vec3<T>, height: T, surface: Surface) -> Self {
+    pub const fn from_parts(normal: Vec3<T>, height: T, info: ObjectInfo) -> Self {
         Self {
             normal,
             height,
-            surface,
+            info,
         }
     }
 
@@ -58,20 +58,20 @@ impl<T: Scalar> Plane<T> {
 
     /// Material and place in the file.
     #[inline(always)]
-    pub const fn surface(&self) -> Surface {
-        self.surface
+    pub const fn info(&self) -> ObjectInfo {
+        self.info
     }
 
     /// Distance of the crossing within `0 < t ≤ t_max`. A ray in the plane or parallel to
     /// it does not cross it.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray<T>, t_max: T) -> Option<T> {
-        self.meet(ray).filter(|t| *t <= t_max)
+        self.crossing(ray).filter(|t| *t <= t_max)
     }
 
     /// [`Plane::intersect`] without a limit; the distance may be infinite.
     #[inline(always)]
-    pub(crate) fn meet(&self, ray: &Ray<T>) -> Option<T> {
+    pub(crate) fn crossing(&self, ray: &Ray<T>) -> Option<T> {
         let (below, slope) = formula::plane::rise(
             self.normal.real(),
             Real(self.height),
@@ -119,12 +119,12 @@ impl<T: Scalar> Primitive<T> for Plane<T> {
     }
 
     #[inline(always)]
-    fn surface(&self) -> Surface {
-        self.surface
+    fn info(&self) -> ObjectInfo {
+        self.info
     }
 
     fn set_material(&mut self, material: u32) {
-        self.surface.material = material;
+        self.info.material = material;
     }
 
     fn bounding_sphere(&self) -> Option<BoundingSphere<T>> {
@@ -137,7 +137,7 @@ impl<T: Scalar> Primitive<T> for Plane<T> {
 
     #[inline(always)]
     fn hit(&self, ray: &Ray<T>, _: T) -> Option<(T, Barycentric<T>)> {
-        Some((self.meet(ray)?, Barycentric::ZERO))
+        Some((self.crossing(ray)?, Barycentric::ZERO))
     }
 
     #[inline(always)]
@@ -183,21 +183,21 @@ impl<T: Scalar> ListedShape<T> for Plane<T> {
 mod tests {
     use super::*;
 
-    const SURFACE: Surface = Surface {
+    const INFO: ObjectInfo = ObjectInfo {
         material: 0,
         number: 7,
     };
 
     #[test]
     fn normalises_the_normal_and_the_distance_with_it() {
-        let plane = Plane::new(Vec3::new(0.0_f32, 2.0, 0.0), 3.0, SURFACE).unwrap();
+        let plane = Plane::new(Vec3::new(0.0_f32, 2.0, 0.0), 3.0, INFO).unwrap();
         assert_eq!(plane.normal(), Vec3::new(0.0, 1.0, 0.0));
         assert_eq!(plane.height(), -1.5);
     }
 
     #[test]
-    fn is_met_from_both_sides_but_not_along_itself() {
-        let plane = Plane::new(Vec3::new(0.0_f32, 1.0, 0.0), 1.0, SURFACE).unwrap();
+    fn is_hit_from_both_sides_but_not_along_itself() {
+        let plane = Plane::new(Vec3::new(0.0_f32, 1.0, 0.0), 1.0, INFO).unwrap();
         let t = |y, dy, dz| {
             let ray = Ray::new(Vec3::new(0.0, y, 0.0), Vec3::new(0.0, dy, dz));
             plane.intersect(&ray, f32::MAX)
@@ -211,7 +211,7 @@ mod tests {
 
     #[test]
     fn refuses_what_is_no_plane() {
-        let new = |normal, distance| Plane::new(normal, distance, SURFACE).err();
+        let new = |normal, distance| Plane::new(normal, distance, INFO).err();
         assert_eq!(
             new(Vec3::new(0.0_f32, -0.0, 0.0), 1.0),
             Some(ShapeError::NormalZero)

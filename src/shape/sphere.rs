@@ -1,9 +1,9 @@
 //! Spheres.
 
-use super::coarse::Sighting;
+use super::quick_reject::QuickReject;
 use super::{
-    Barycentric, BoundingSphere, Geometry, Kind, ListedShape, Object, Primitive, Shape, ShapeError,
-    Surface, SurfacePoint,
+    Barycentric, BoundingSphere, Geometry, Kind, ListedShape, Object, ObjectInfo, Primitive, Shape,
+    ShapeError, SurfacePoint,
 };
 use crate::formula::{self, origin_offset};
 use crate::ray::Ray;
@@ -15,7 +15,7 @@ use crate::vec3::Vec3;
 /// A sphere.
 ///
 /// Invariants: `radius > 0`; `radius_squared` is its finite square, or −1 for a radius so small that the
-/// square loses digits (below 1.1e-19 in `f32`), so that no ray meets the sphere; `offset` is an upper bound of the origin offset anywhere
+/// square loses digits (below 1.1e-19 in `f32`), so that no ray hits the sphere; `offset` is an upper bound of the origin offset anywhere
 /// on the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere<T = f32> {
@@ -23,7 +23,7 @@ pub struct Sphere<T = f32> {
     radius_squared: T,
     radius: T,
     offset: T,
-    surface: Surface,
+    info: ObjectInfo,
 }
 
 impl<T: Scalar> Sphere<T> {
@@ -32,7 +32,7 @@ impl<T: Scalar> Sphere<T> {
     /// # Errors
     ///
     /// [`ShapeError::RadiusNotPositive`], [`ShapeError::RadiusTooLarge`].
-    pub fn new(center: Vec3<T>, radius: T, surface: Surface) -> Result<Self, ShapeError> {
+    pub fn new(center: Vec3<T>, radius: T, info: ObjectInfo) -> Result<Self, ShapeError> {
         if !(radius > T::ZERO) {
             return Err(ShapeError::RadiusNotPositive);
         }
@@ -53,7 +53,7 @@ impl<T: Scalar> Sphere<T> {
             radius_squared,
             radius,
             offset,
-            surface,
+            info,
         ))
     }
 
@@ -63,14 +63,14 @@ impl<T: Scalar> Sphere<T> {
         radius_squared: T,
         radius: T,
         offset: T,
-        surface: Surface,
+        info: ObjectInfo,
     ) -> Self {
         Self {
             center,
             radius_squared,
             radius,
             offset,
-            surface,
+            info,
         }
     }
 
@@ -84,7 +84,7 @@ impl<T: Scalar> Sphere<T> {
         self.radius
     }
 
-    /// Square of the radius, as rounded; −1 if no ray is to meet the sphere.
+    /// Square of the radius, as rounded; −1 if no ray is to hit the sphere.
     pub const fn radius_squared(&self) -> T {
         self.radius_squared
     }
@@ -96,23 +96,23 @@ impl<T: Scalar> Sphere<T> {
 
     /// Material and place in the file.
     #[inline(always)]
-    pub const fn surface(&self) -> Surface {
-        self.surface
+    pub const fn info(&self) -> ObjectInfo {
+        self.info
     }
 
     /// Whether a coarse look in integers, which decides first where floats are emulated, finds that the ray does
-    /// not meet it.
+    /// not hit it.
     #[doc(hidden)]
     #[inline(always)]
-    pub fn clearly_misses(&self, ray: &Ray<T>) -> bool {
-        Sighting::of(ray, self.center, self.radius_squared, self.offset)
-            .is_some_and(|sighting| sighting.is_clear_miss_of_surface())
+    pub fn quick_reject(&self, ray: &Ray<T>) -> bool {
+        QuickReject::of(ray, self.center, self.radius_squared, self.offset)
+            .is_some_and(|quick| quick.is_clear_miss_of_surface())
     }
 
     /// The distances of both crossings of the ray's line, nearer first.
     #[inline(always)]
     fn crossings(&self, ray: &Ray<T>) -> Option<(T, T)> {
-        if T::EMULATED && self.clearly_misses(ray) {
+        if T::EMULATED && self.quick_reject(ray) {
             return None;
         }
         let (middle, discriminant) = formula::sphere::chord(
@@ -132,12 +132,12 @@ impl<T: Scalar> Sphere<T> {
     /// Distance of the nearest crossing within `0 < t ≤ t_max`.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray<T>, t_max: T) -> Option<T> {
-        self.meet(ray).filter(|t| *t <= t_max)
+        self.crossing(ray).filter(|t| *t <= t_max)
     }
 
     /// [`Sphere::intersect`] without a limit.
     #[inline(always)]
-    pub(crate) fn meet(&self, ray: &Ray<T>) -> Option<T> {
+    pub(crate) fn crossing(&self, ray: &Ray<T>) -> Option<T> {
         let (near, far) = self.crossings(ray)?;
         // From inside the sphere only the far crossing lies ahead.
         if near.is_positive() {
@@ -188,12 +188,12 @@ impl<T: Scalar> Primitive<T> for Sphere<T> {
     }
 
     #[inline(always)]
-    fn surface(&self) -> Surface {
-        self.surface
+    fn info(&self) -> ObjectInfo {
+        self.info
     }
 
     fn set_material(&mut self, material: u32) {
-        self.surface.material = material;
+        self.info.material = material;
     }
 
     fn bounding_sphere(&self) -> Option<BoundingSphere<T>> {
@@ -210,7 +210,7 @@ impl<T: Scalar> Primitive<T> for Sphere<T> {
 
     #[inline(always)]
     fn hit(&self, ray: &Ray<T>, _: T) -> Option<(T, Barycentric<T>)> {
-        Some((self.meet(ray)?, Barycentric::ZERO))
+        Some((self.crossing(ray)?, Barycentric::ZERO))
     }
 
     #[inline(always)]
@@ -256,19 +256,19 @@ impl<T: Scalar> ListedShape<T> for Sphere<T> {
 mod tests {
     use super::*;
 
-    const SURFACE: Surface = Surface {
+    const INFO: ObjectInfo = ObjectInfo {
         material: 0,
         number: 0,
     };
 
     fn sphere(center: Vec3<f32>, radius: f32) -> Sphere<f32> {
-        Sphere::new(center, radius, SURFACE).unwrap()
+        Sphere::new(center, radius, INFO).unwrap()
     }
 
     const ALONG_Z: Vec3<f32> = Vec3::new(0.0, 0.0, 1.0);
 
     #[test]
-    fn meets_the_near_side_from_outside_and_the_far_side_from_inside() {
+    fn hits_the_near_side_from_outside_and_the_far_side_from_inside() {
         let s = sphere(Vec3::new(0.0, 0.0, 5.0), 1.0);
         let t = |z: f32| s.intersect(&Ray::new(Vec3::new(0.0, 0.0, z), ALONG_Z), f32::MAX);
         assert_eq!(t(0.0), Some(4.0));
@@ -291,7 +291,7 @@ mod tests {
 
     #[test]
     fn refuses_radii_that_are_none() {
-        let new = |radius| Sphere::new(Vec3::<f32>::default(), radius, SURFACE).err();
+        let new = |radius| Sphere::new(Vec3::<f32>::default(), radius, INFO).err();
         assert_eq!(new(0.0), Some(ShapeError::RadiusNotPositive));
         assert_eq!(new(-1.0), Some(ShapeError::RadiusNotPositive));
         assert_eq!(new(f32::NAN), Some(ShapeError::RadiusNotPositive));

@@ -1,7 +1,7 @@
 //! Shapes that few scenes have: their numbers stand one after another in one list, whatever their kinds, so that a scene does
 //! not grow with the number of kinds, and each object takes no more room than its own numbers.
 
-use super::{Kind, Primitive, Surface};
+use super::{Kind, ObjectInfo, Primitive};
 use crate::scalar::Scalar;
 
 /// Where the numbers of an object are, and what they are.
@@ -10,18 +10,14 @@ pub struct StoredEntry {
     pub(crate) kind: Kind,
     /// Index of the first of its numbers.
     pub(crate) first: u32,
-    pub(crate) surface: Surface,
+    pub(crate) info: ObjectInfo,
 }
 
 impl StoredEntry {
     /// For baked scenes.
     #[doc(hidden)]
-    pub const fn from_parts(kind: Kind, first: u32, surface: Surface) -> Self {
-        Self {
-            kind,
-            first,
-            surface,
-        }
+    pub const fn from_parts(kind: Kind, first: u32, info: ObjectInfo) -> Self {
+        Self { kind, first, info }
     }
 }
 
@@ -49,14 +45,14 @@ pub(crate) trait StoredShape<T: Scalar>: Primitive<T> {
     fn write(&self, numbers: &mut [T]);
 
     /// The shape whose numbers are first in a list; some that no ray hits if there are too few.
-    fn read(numbers: &[T], surface: Surface) -> Self;
+    fn read(numbers: &[T], info: ObjectInfo) -> Self;
 
     /// The shape of an object of its kind.
     #[inline(always)]
     fn of(object: StoredObject<'_, T>) -> Self {
         let StoredObject { entry, numbers } = object;
         let numbers = numbers.get(entry.first as usize..).unwrap_or_default();
-        Self::read(numbers, entry.surface)
+        Self::read(numbers, entry.info)
     }
 }
 

@@ -1,8 +1,8 @@
 //! Triangles.
 
-use super::coarse::Sighting;
+use super::quick_reject::QuickReject;
 use super::{
-    BoundingSphere, Geometry, Kind, ListedShape, Object, Primitive, Shape, ShapeError, Surface,
+    BoundingSphere, Geometry, Kind, ListedShape, Object, ObjectInfo, Primitive, Shape, ShapeError,
     SurfacePoint, extent,
 };
 use crate::formula::triangle::{Shear, edge, interpolate, point, product_error, reach, slack};
@@ -15,18 +15,18 @@ use crate::vec3::Vec3;
 
 /// A triangle, seen from both sides.
 ///
-/// Invariants: `normal = normalize((v3 − v1) × (v2 − v1))`; the ball around `ball_center` holds the
+/// Invariants: `normal = normalize((v3 − v1) × (v2 − v1))`; the sphere around `bounds_center` holds the
 /// three vertices with room for the rounding of its own construction, or has the square radius −1, so that
-/// no ray meets a triangle whose squares lose digits (smaller than 1e-19 in `f32`); `offset` is an upper bound of
+/// no ray hits a triangle whose squares lose digits (smaller than 1e-19 in `f32`); `offset` is an upper bound of
 /// the origin offset anywhere on the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle<T = f32> {
-    ball_center: Vec3<T>,
-    ball_radius_squared: T,
+    bounds_center: Vec3<T>,
+    bounds_radius_squared: T,
     vertices: [Vec3<T>; 3],
     normal: Vec3<T>,
     offset: T,
-    surface: Surface,
+    info: ObjectInfo,
 }
 
 /// Where on a triangle: the weights of its second and third vertex.
@@ -53,7 +53,7 @@ impl<T: Scalar> Triangle<T> {
     ///
     /// [`ShapeError::NoArea`] when two edges enclose an angle whose sine is below four units of
     /// rounding, [`ShapeError::EdgeTooLong`].
-    pub fn new(vertices: [Vec3<T>; 3], surface: Surface) -> Result<Self, ShapeError> {
+    pub fn new(vertices: [Vec3<T>; 3], info: ObjectInfo) -> Result<Self, ShapeError> {
         let [v1, v2, v3] = vertices;
         for edge in [v2 - v1, v3 - v1, v3 - v2] {
             if !edge.is_finite() {
@@ -70,8 +70,8 @@ impl<T: Scalar> Triangle<T> {
         if !(sine > T::TWO * T::TWO * T::EPSILON) {
             return Err(ShapeError::NoArea);
         }
-        let (ball_center, square) = bounding_ball(vertices);
-        let ball_radius_squared = if square < T::MIN_POSITIVE {
+        let (bounds_center, square) = bounds_of(vertices);
+        let bounds_radius_squared = if square < T::MIN_POSITIVE {
             -T::ONE
         } else {
             square
@@ -81,10 +81,10 @@ impl<T: Scalar> Triangle<T> {
         Ok(Self::from_parts(
             vertices,
             normal,
-            ball_center,
-            ball_radius_squared,
+            bounds_center,
+            bounds_radius_squared,
             origin_offset(T::TWO * extent, extent),
-            surface,
+            info,
         ))
     }
 
@@ -92,18 +92,18 @@ impl<T: Scalar> Triangle<T> {
     pub const fn from_parts(
         vertices: [Vec3<T>; 3],
         normal: Vec3<T>,
-        ball_center: Vec3<T>,
-        ball_radius_squared: T,
+        bounds_center: Vec3<T>,
+        bounds_radius_squared: T,
         offset: T,
-        surface: Surface,
+        info: ObjectInfo,
     ) -> Self {
         Self {
-            ball_center,
-            ball_radius_squared,
+            bounds_center,
+            bounds_radius_squared,
             vertices,
             normal,
             offset,
-            surface,
+            info,
         }
     }
 
@@ -117,14 +117,14 @@ impl<T: Scalar> Triangle<T> {
         self.normal
     }
 
-    /// Centre of the bounding ball.
-    pub const fn ball_center(&self) -> Vec3<T> {
-        self.ball_center
+    /// Centre of the bounding sphere.
+    pub const fn bounds_center(&self) -> Vec3<T> {
+        self.bounds_center
     }
 
-    /// Square of the radius of the bounding ball, rounded up; −1 if no ray is to meet the triangle.
-    pub const fn ball_radius_squared(&self) -> T {
-        self.ball_radius_squared
+    /// Square of the radius of the bounding sphere, rounded up; −1 if no ray is to hit the triangle.
+    pub const fn bounds_radius_squared(&self) -> T {
+        self.bounds_radius_squared
     }
 
     /// Upper bound of the origin offset on this triangle.
@@ -134,40 +134,45 @@ impl<T: Scalar> Triangle<T> {
 
     /// Material and place in the file.
     #[inline(always)]
-    pub const fn surface(&self) -> Surface {
-        self.surface
+    pub const fn info(&self) -> ObjectInfo {
+        self.info
     }
 
     /// Whether a coarse look in integers, which decides first where floats are emulated, finds that the ray does
-    /// not meet its ball.
+    /// not hit its sphere.
     #[doc(hidden)]
     #[inline(always)]
-    pub fn clearly_misses(&self, ray: &Ray<T>) -> bool {
-        Sighting::of(ray, self.ball_center, self.ball_radius_squared, self.offset)
-            .is_some_and(|sighting| sighting.is_clear_miss())
+    pub fn quick_reject(&self, ray: &Ray<T>) -> bool {
+        QuickReject::of(
+            ray,
+            self.bounds_center,
+            self.bounds_radius_squared,
+            self.offset,
+        )
+        .is_some_and(|quick| quick.is_clear_miss())
     }
 
     /// Whether the ray's line may come close enough to the triangle for the exact test to hit; never wrong in the other
     /// direction ([`reach`]).
     #[inline(always)]
-    fn may_meet(&self, ray: &Ray<T>) -> bool {
-        if T::EMULATED && self.clearly_misses(ray) {
+    fn may_hit(&self, ray: &Ray<T>) -> bool {
+        if T::EMULATED && self.quick_reject(ray) {
             return false;
         }
         let (b, across) = closest_approach(
-            self.ball_center.real(),
+            self.bounds_center.real(),
             ray.origin.real(),
             ray.direction.real(),
         );
         across
             .0
-            .is_up_to(reach(Real(self.ball_radius_squared), b).0)
+            .is_up_to(reach(Real(self.bounds_radius_squared), b).0)
     }
 
     /// Distance and place of the crossing within `0 < t ≤ t_max`.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray<T>, t_max: T) -> Option<(T, Barycentric<T>)> {
-        if !self.may_meet(ray) {
+        if !self.may_hit(ray) {
             return None;
         }
         let (o, d) = (ray.origin, ray.direction);
@@ -246,19 +251,19 @@ impl<T: Scalar> Primitive<T> for Triangle<T> {
     }
 
     #[inline(always)]
-    fn surface(&self) -> Surface {
-        self.surface
+    fn info(&self) -> ObjectInfo {
+        self.info
     }
 
     fn set_material(&mut self, material: u32) {
-        self.surface.material = material;
+        self.info.material = material;
     }
 
     /// `None` also of a triangle so large that the square of the radius is no number.
     fn bounding_sphere(&self) -> Option<BoundingSphere<T>> {
-        let square = self.ball_radius_squared;
+        let square = self.bounds_radius_squared;
         (square < T::MAX).then(|| BoundingSphere {
-            center: self.ball_center,
+            center: self.bounds_center,
             radius: square.sqrt(),
         })
     }
@@ -305,8 +310,8 @@ impl<T: Scalar> ListedShape<T> for Triangle<T> {
         let parts = [
             Some(Vectors(self.vertices)),
             Some(Vector(self.normal)),
-            Some(Vector(self.ball_center)),
-            Some(Number(self.ball_radius_squared)),
+            Some(Vector(self.bounds_center)),
+            Some(Number(self.bounds_radius_squared)),
             Some(Number(self.offset)),
             None,
         ];
@@ -371,9 +376,9 @@ fn signed_edge<T: Scalar>(p: Vec3<Real<T>>, q: Vec3<Real<T>>) -> Real<T> {
     }
 }
 
-/// A small ball that holds three points: around the middle of the longest edge or around the
+/// A small sphere that holds three points: around the middle of the longest edge or around the
 /// centroid, whichever is smaller. Its square radius is rounded up as [`reach`] needs.
-fn bounding_ball<T: Scalar>(vertices: [Vec3<T>; 3]) -> (Vec3<T>, T) {
+fn bounds_of<T: Scalar>(vertices: [Vec3<T>; 3]) -> (Vec3<T>, T) {
     let [v1, v2, v3] = vertices;
     let squared = |v: Vec3<T>| v.dot(v);
     // Halve before adding: the sum of two large coordinates may overflow.

@@ -7,11 +7,11 @@ use crate::scalar::Scalar;
 use crate::shape::{ListedShape, Plane, Primitive, Sphere, Triangle, for_each_shape};
 use crate::stages::Stages;
 
-impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, STACK> {
+impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES, STACK> {
     /// Whether bounded objects are found by a hierarchy.
     #[inline(always)]
     pub(super) fn has_bvh(&self) -> bool {
-        stage(NEEDS, Stages::BVH) && self.scene.accel.bvh.is_some()
+        stage(STAGES, Stages::BVH) && self.scene.accel.bvh.is_some()
     }
 
     /// Makes the closest object of all the closest.
@@ -29,7 +29,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
                 let mut within = index;
                 macro_rules! offer_bounded {
                     ([$($shape:ident)*]) => {
-                        $(if stage(NEEDS, <$shape<T> as Primitive<T>>::STAGE) {
+                        $(if stage(STAGES, <$shape<T> as Primitive<T>>::STAGE) {
                             let all = <$shape<T>>::all(&self.scene.geometry);
                             if <$shape<T> as Primitive<T>>::IS_BOUNDED
                                 && let Some(object) = all.get(within)
@@ -43,7 +43,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
                     };
                 }
                 for_each_shape!(offer_bounded);
-                if any_stage(NEEDS, Stages::STORED_SHAPES)
+                if any_stage(STAGES, Stages::STORED_SHAPES)
                     && let Some(object) = self.scene.geometry.stored.get(within)
                 {
                     self.offer_stored(index, object, ray, closest, observer);
@@ -52,7 +52,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
             }
         }
         // What has no box.
-        if stage(NEEDS, Stages::PLANES) {
+        if stage(STAGES, Stages::PLANES) {
             let first = self.scene.geometry.spheres.len();
             for (index, plane) in (first..).zip(self.scene.geometry.planes) {
                 observer.test_object(plane.object(), ray, closest.t);
@@ -76,7 +76,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
                 let mut within = index;
                 macro_rules! occluded_by_bounded {
                     ([$($shape:ident)*]) => {
-                        $(if stage(NEEDS, <$shape<T> as Primitive<T>>::STAGE) {
+                        $(if stage(STAGES, <$shape<T> as Primitive<T>>::STAGE) {
                             let all = <$shape<T>>::all(&self.scene.geometry);
                             if <$shape<T> as Primitive<T>>::IS_BOUNDED
                                 && let Some(object) = all.get(within)
@@ -92,7 +92,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
                     };
                 }
                 for_each_shape!(occluded_by_bounded);
-                if any_stage(NEEDS, Stages::STORED_SHAPES)
+                if any_stage(STAGES, Stages::STORED_SHAPES)
                     && let Some(object) = self.scene.geometry.stored.get(within)
                     && self.is_occluded_by_stored(index, object, ray, t_max, observer)
                 {
@@ -102,7 +102,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
             }
         }
         let first = self.scene.geometry.spheres.len();
-        stage(NEEDS, Stages::PLANES)
+        stage(STAGES, Stages::PLANES)
             && (first..)
                 .zip(self.scene.geometry.planes)
                 .any(|(index, plane)| {

@@ -23,7 +23,7 @@ impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Stages::ALL.bits() }, ST
     /// becomes darker by `cutoff` or more, and none brighter, for any scene and depth (up to rounding, of
     /// about 1e-6). 0 casts them all, and so does what is no number.
     ///
-    /// [`DisplayColor::LEVEL`](crate::DisplayColor::LEVEL) ties it to the display: no channel of a pixel is
+    /// [`DisplayColor::LEVEL`](crate::render::DisplayColor::LEVEL) ties it to the display: no channel of a pixel is
     /// then more than one level off.
     ///
     /// The cut-off is a stage of the tracer that costs nothing where it is not asked for. For a `static`
@@ -31,7 +31,7 @@ impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Stages::ALL.bits() }, ST
     ///
     /// ```
     /// use embedded_graphics::pixelcolor::Rgb565;
-    /// use scanray::{DisplayColor, Stages, ScenePools, Tracer};
+    /// use scanray::{render::DisplayColor, ScenePools, Stages, Tracer};
     ///
     /// let pools: ScenePools = ScenePools::new();
     /// let tracer = Tracer::new(pools.as_scene()).with_cutoff(Rgb565::LEVEL);
@@ -58,13 +58,13 @@ impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, ALL_AND_BVH, STACK> {
     }
 }
 
-impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, STACK> {
+impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES, STACK> {
     /// The same tracer with another cut-off, for one whose stages have it: `tracer_for!(SCENE, cutoff = …)`,
     /// [`Tracer::with_cutoff`] and what they are specialised to. Others are an error of the compiler.
     pub const fn with_compiled_cutoff(mut self, cutoff: T) -> Self {
         const {
             assert!(
-                stage(NEEDS, Stages::CUTOFF),
+                stage(STAGES, Stages::CUTOFF),
                 "the stage `cutoff` is left out: take Tracer::with_cutoff or tracer_for!(SCENE, cutoff = …)"
             )
         };
@@ -82,7 +82,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     /// allowance.
     #[inline(always)]
     pub(super) fn shows(&self, throughput: T, coefficient: T, allowance: &mut T) -> bool {
-        if !stage(NEEDS, Stages::CUTOFF) || coefficient == T::ZERO {
+        if !stage(STAGES, Stages::CUTOFF) || coefficient == T::ZERO {
             return true;
         }
         let throughput = throughput * coefficient;

@@ -6,7 +6,7 @@ mod observer;
 mod shade;
 mod stack;
 
-pub use observer::{LightAtHit, Meeting, Observer, RayCount, RayKind, TestKind, WorkCount};
+pub use observer::{Intersection, LightAtHit, Observer, RayCount, RayKind, TestKind, WorkCount};
 
 use core::fmt;
 
@@ -19,13 +19,13 @@ use crate::ray::{Ray, Side};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::shape::{
-    Barycentric, Disc, Geometry, Kind, ListedShape, Object, Plane, Primitive, Sphere, Stored,
-    StoredObject, StoredShape, Surface, SurfacePoint, Triangle, for_each_shape,
+    Barycentric, Disc, Geometry, Kind, ListedShape, Object, ObjectInfo, Plane, Primitive, Sphere,
+    Stored, StoredObject, StoredShape, SurfacePoint, Triangle, for_each_shape,
     for_each_stored_shape,
 };
 use crate::stages::Stages;
 use crate::vec3::Vec3;
-use stack::{Frame, Refracted, Stack, Throughputs, Waiting};
+use stack::{Level, Pending, Refracted, Stack, Throughputs};
 
 /// How many secondary rays may follow one another unless the tracer is told otherwise.
 pub const DEFAULT_MAX_DEPTH: usize = 5;
@@ -47,7 +47,7 @@ const fn any_stage(needs: u64, stages: Stages) -> bool {
 
 /// Traces rays through a scene.
 ///
-/// `NEEDS` are the stages that are compiled, `STACK` is the number of frames that stand for the
+/// `STAGES` are the stages that are compiled, `STACK` is the number of frames that stand for the
 /// recursion. Neither is written by hand: [`Tracer::new`] compiles all stages that a small scene may need for
 /// [`DEFAULT_MAX_DEPTH`], [`tracer_for!`](crate::tracer_for) those that a `static` scene needs, and
 /// methods change the rest. For pools with room for a hierarchy there is [`Tracer::with_bvh`].
@@ -67,7 +67,7 @@ const fn any_stage(needs: u64, stages: Stages) -> bool {
 pub struct Tracer<
     'a,
     T = f32,
-    const NEEDS: u64 = { Stages::ALL.bits() },
+    const STAGES: u64 = { Stages::ALL.bits() },
     const STACK: usize = DEFAULT_MAX_DEPTH,
 > {
     /// Its resolution is that of the picture.
@@ -114,12 +114,12 @@ impl fmt::Display for MissingStages {
 
 impl core::error::Error for MissingStages {}
 
-/// A meeting of a ray with a surface, ready for shading.
+/// An intersection of a ray with a surface, ready for shading.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Hit<'a, T> {
     /// The side the ray comes from.
     facing: Side,
-    /// What rays can meet that leave that side.
+    /// What rays can hit that leave that side.
     candidates: &'a Candidates,
     /// The cell of the plane's grid, if it lies in one.
     cell: Option<Cell<'a>>,
@@ -139,23 +139,23 @@ pub(crate) struct Hit<'a, T> {
 /// What the pixels of a row have in common: a caller that draws row by row computes it once.
 #[derive(Clone, Copy, Debug)]
 pub struct Scanline<T = f32> {
-    row_height: T,
+    image_plane_y: T,
     visible: ObjectSet,
 }
 
 impl<T: Scalar> Scanline<T> {
-    /// The objects that primary rays of the row can meet.
+    /// The objects that primary rays of the row can hit.
     pub fn visible(&self) -> ObjectSet {
         self.visible
     }
 
     /// `y` of its primary rays before normalisation.
-    pub fn row_height(&self) -> T {
-        self.row_height
+    pub fn image_plane_y(&self) -> T {
+        self.image_plane_y
     }
 }
 
-/// The object a ray meets first.
+/// The object a ray hits first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest<'a, T = f32> {
     /// Distance along the ray, greater than 0.
@@ -166,10 +166,10 @@ pub struct Nearest<'a, T = f32> {
     pub index: usize,
 }
 
-/// The closest meeting so far.
+/// The closest intersection so far.
 #[derive(Clone, Copy)]
 struct Closest<T> {
-    /// Distance along the ray; the largest number if there is no meeting yet.
+    /// Distance along the ray; the largest number if there is no intersection yet.
     t: T,
     /// Index of the object among all objects; beyond all if there is none.
     index: usize,
@@ -218,12 +218,12 @@ impl<'a, T: Scalar, const STACK: usize> Tracer<'a, T, { Stages::ALL.bits() }, ST
     }
 }
 
-impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, STACK> {
+impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES, STACK> {
     /// Bytes of each of the `STACK` frames, with room for the refracted ray of each, which are on the call
     /// stack while a ray is traced.
-    pub const FRAME_BYTES: usize = size_of::<Frame<T>>() + size_of::<Refracted<T>>();
+    pub const FRAME_BYTES: usize = size_of::<Level<T>>() + size_of::<Refracted<T>>();
 
-    /// Stages and stack as the type says, unchecked: stages the scene needs beyond `NEEDS` are simply
+    /// Stages and stack as the type says, unchecked: stages the scene needs beyond `STAGES` are simply
     /// not drawn.
     #[doc(hidden)]
     pub const fn with_stages(scene: Scene<'a, T>) -> Self {
@@ -239,7 +239,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     }
 
     /// The same tracer with `FRAMES` frames; the maximum depth shrinks with them if it must.
-    pub const fn with_stack<const FRAMES: usize>(self) -> Tracer<'a, T, NEEDS, FRAMES> {
+    pub const fn with_stack<const FRAMES: usize>(self) -> Tracer<'a, T, STAGES, FRAMES> {
         Tracer {
             scene: self.scene,
             max_depth: if self.max_depth < FRAMES {
@@ -291,7 +291,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
 
     /// The stages that are compiled.
     pub const fn stages(&self) -> Stages {
-        Stages::from_bits(NEEDS)
+        Stages::from_bits(STAGES)
     }
 
     /// No pixel casts more rays than this: a full binary tree of secondary rays, and from each hit one
@@ -301,7 +301,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         hits.saturating_mul(1 + self.scene.lights.len() as u64)
     }
 
-    /// The object a ray meets first; of several at exactly the same distance the first in the file.
+    /// The object a ray hits first; of several at exactly the same distance the first in the file.
     pub fn nearest(&self, ray: &Ray<T>) -> Option<Nearest<'a, T>> {
         let all = self.without_flat(ray.leaves.object() as usize, ObjectSet::ALL);
         let closest = self.closest(ray, all, &mut ());
@@ -315,7 +315,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     /// The members of a set, by their indices.
     #[inline(always)]
     fn members(&self, set: ObjectSet) -> Members {
-        set.members_among(stage(NEEDS, Stages::MANY_OBJECTS))
+        set.members_among(stage(STAGES, Stages::MANY_OBJECTS))
     }
 
     #[inline(always)]
@@ -338,7 +338,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
             };
         }
         for_each_shape!(closest_of_each);
-        if any_stage(NEEDS, Stages::STORED_SHAPES) {
+        if any_stage(STAGES, Stages::STORED_SHAPES) {
             let stored = &self.scene.geometry.stored;
             members.walk(
                 first..first + stored.entries.len(),
@@ -365,13 +365,13 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         closest: &mut Closest<T>,
         observer: &mut impl Observer<T>,
     ) -> usize {
-        if !stage(NEEDS, P::STAGE) {
+        if !stage(STAGES, P::STAGE) {
             return first;
         }
         let all = P::all(&self.scene.geometry);
         members.walk(
             first..first + all.len(),
-            stage(NEEDS, P::SEVERAL),
+            stage(STAGES, P::SEVERAL),
             |index| all.get(index.wrapping_sub(first)),
             |index, object| {
                 observer.test_object(object.object(), ray, closest.t);
@@ -404,7 +404,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         macro_rules! of_kind {
             ([$($shape:ident)*]) => {
                 match object.entry.kind {
-                    $(Kind::$shape if stage(NEEDS, <$shape<T> as Primitive<T>>::STAGE) => {
+                    $(Kind::$shape if stage(STAGES, <$shape<T> as Primitive<T>>::STAGE) => {
                         observer.test_object(Object::Stored(object), ray, closest.t);
                         self.offer(index, &<$shape<T>>::of(object), ray, closest);
                     })*
@@ -446,7 +446,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         macro_rules! of_kind {
             ([$($shape:ident)*]) => {
                 match object.entry.kind {
-                    $(Kind::$shape if stage(NEEDS, <$shape<T> as Primitive<T>>::STAGE) => {
+                    $(Kind::$shape if stage(STAGES, <$shape<T> as Primitive<T>>::STAGE) => {
                         observer.test_object(Object::Stored(object), ray, t_max);
                         self.is_occluded_by(index, &<$shape<T>>::of(object), ray, t_max)
                     })*
@@ -487,7 +487,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
             };
         }
         for_each_shape!(occluded_by_each);
-        if any_stage(NEEDS, Stages::STORED_SHAPES) {
+        if any_stage(STAGES, Stages::STORED_SHAPES) {
             let stored = &self.scene.geometry.stored;
             return members.walk(
                 first..first + stored.entries.len(),
@@ -510,13 +510,13 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         t_max: T,
         observer: &mut impl Observer<T>,
     ) -> bool {
-        if !stage(NEEDS, P::STAGE) {
+        if !stage(STAGES, P::STAGE) {
             return false;
         }
         let all = P::all(&self.scene.geometry);
         members.walk(
             first..first + all.len(),
-            stage(NEEDS, P::SEVERAL),
+            stage(STAGES, P::SEVERAL),
             |index| all.get(index.wrapping_sub(first)),
             |index, object| {
                 observer.test_object(object.object(), ray, t_max);
@@ -529,7 +529,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     #[inline(always)]
     fn geometry(&self) -> Geometry<'a, T> {
         let mut geometry = self.scene.geometry;
-        if !any_stage(NEEDS, Stages::STORED_SHAPES) {
+        if !any_stage(STAGES, Stages::STORED_SHAPES) {
             geometry.stored = Stored::NONE;
         }
         geometry
@@ -539,7 +539,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     /// Those that are told apart are not among the candidates.
     #[inline(always)]
     pub(super) fn is_left<P: Primitive<T>>(&self, ray: &Ray<T>, index: usize) -> bool {
-        P::IS_FLAT && stage(NEEDS, Stages::MANY_OBJECTS) && ray.leaves.object() as usize == index
+        P::IS_FLAT && stage(STAGES, Stages::MANY_OBJECTS) && ray.leaves.object() as usize == index
     }
 
     /// Candidates without the object that the ray leaves, if it is flat.
@@ -578,7 +578,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         object.occludes(ray, t_max)
             && !self.is_left::<P>(ray, index)
             && self
-                .material(object.surface())
+                .material(object.info())
                 .is_none_or(Material::casts_shadow)
     }
 
@@ -588,11 +588,11 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         &self,
         ray: &Ray<T>,
         closest: &Closest<T>,
-    ) -> Option<(SurfacePoint<T>, Surface, Option<Cell<'a>>)> {
+    ) -> Option<(SurfacePoint<T>, ObjectInfo, Option<Cell<'a>>)> {
         let mut index = closest.index;
         macro_rules! among {
             ([$($shape:ident)*]) => {
-                $(if stage(NEEDS, <$shape<T> as Primitive<T>>::STAGE) {
+                $(if stage(STAGES, <$shape<T> as Primitive<T>>::STAGE) {
                     let all = <$shape<T>>::all(&self.scene.geometry);
                     if let Some(object) = all.get(index) {
                         let point = object.point(ray, closest.t, closest.place);
@@ -605,31 +605,31 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
                                 .and_then(|grid| grid.cell(point.point)),
                             _ => None,
                         };
-                        return Some((point, Primitive::surface(object), cell));
+                        return Some((point, Primitive::info(object), cell));
                     }
                     index = index.wrapping_sub(all.len());
                 })*
             };
         }
         for_each_shape!(among);
-        if !any_stage(NEEDS, Stages::STORED_SHAPES) {
+        if !any_stage(STAGES, Stages::STORED_SHAPES) {
             return None;
         }
         let object = self.scene.geometry.stored.get(index)?;
         macro_rules! of_kind {
             ([$($shape:ident)*]) => {
                 match object.entry.kind {
-                    $(Kind::$shape if stage(NEEDS, <$shape<T> as Primitive<T>>::STAGE) => {
+                    $(Kind::$shape if stage(STAGES, <$shape<T> as Primitive<T>>::STAGE) => {
                         <$shape<T>>::of(object).point(ray, closest.t, closest.place)
                     })*
                     _ => return None,
                 }
             };
         }
-        Some((for_each_stored_shape!(of_kind), object.entry.surface, None))
+        Some((for_each_stored_shape!(of_kind), object.entry.info, None))
     }
 
-    /// What rays can meet that leave a side of an object.
+    /// What rays can hit that leave a side of an object.
     #[inline(always)]
     fn candidates(&self, side: Side) -> &'a Candidates {
         #[cold]
@@ -644,8 +644,8 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     }
 
     #[inline(always)]
-    fn material(&self, surface: Surface) -> Option<&'a Material<T>> {
-        self.scene.materials.get(surface.material as usize)
+    fn material(&self, info: ObjectInfo) -> Option<&'a Material<T>> {
+        self.scene.materials.get(info.material as usize)
     }
 
     /// The linear colour that a ray from outside the scene sees.
@@ -653,7 +653,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         self.radiance_observed(ray, ObjectSet::ALL, &mut ())
     }
 
-    /// [`Tracer::radiance`] of a ray that meets one of the candidates first if it meets anything, watched.
+    /// [`Tracer::radiance`] of a ray that hits one of the candidates first if it hits anything, watched.
     ///
     /// Depth first over the tree of reflected and refracted rays (Whitted 1980), so that a hit's colour
     /// is clamped as soon as its secondary rays are known, as the recursive form would. The stack holds
@@ -666,7 +666,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         observer: &mut impl Observer<T>,
     ) -> Color<T> {
         let mut stack = Stack::<T, STACK>::new();
-        let mut waiting = Waiting::<T, STACK>::new();
+        let mut pending = Pending::<T, STACK>::new();
         let mut ray = ray;
         let mut candidates = candidates;
         let mut kind = RayKind::Primary;
@@ -686,26 +686,26 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
                     if stack.len() < self.max_depth {
                         let material = hit.material.description();
                         let mut shows = |weight| self.shows(throughput, weight, &mut allowance);
-                        if stage(NEEDS, Stages::REFLECTION) && shows(material.reflection) {
+                        if stage(STAGES, Stages::REFLECTION) && shows(material.reflection) {
                             weight = material.reflection;
                         }
                         // The mirror ray is cast first, and the refracted one kept for later.
-                        if stage(NEEDS, Stages::REFRACTION)
+                        if stage(STAGES, Stages::REFRACTION)
                             && material.refraction.is_positive()
                             && shows(material.refraction)
                             && let Some(refracted) = self.refracted(&ray, &hit)
                         {
                             // There is room for it and for the frame, because `max_depth ≤ STACK`.
-                            refracts = waiting.push(refracted).is_ok();
-                            if stage(NEEDS, Stages::CUTOFF) {
+                            refracts = pending.push(refracted).is_ok();
+                            if stage(STAGES, Stages::CUTOFF) {
                                 let _ = throughputs.push(throughput);
                             }
                         }
                     }
                     color = self.local_color(&ray, &hit, stack.len(), observer);
                     observer.local_color(color);
-                    if stage(NEEDS, Stages::REFLECTION) && weight.is_positive() {
-                        let _ = stack.push(Frame {
+                    if stage(STAGES, Stages::REFLECTION) && weight.is_positive() {
+                        let _ = stack.push(Level {
                             color,
                             weight: if refracts { -weight } else { weight },
                         });
@@ -717,7 +717,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
                             direction,
                             leaves: hit.facing,
                         };
-                        if stage(NEEDS, Stages::CUTOFF) {
+                        if stage(STAGES, Stages::CUTOFF) {
                             throughput = throughput * weight;
                         }
                         continue;
@@ -728,13 +728,13 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
             // Hand the colour up, to the first hit that has a ray left to cast.
             loop {
                 if is_sum {
-                    if stage(NEEDS, Stages::REFRACTION)
+                    if stage(STAGES, Stages::REFRACTION)
                         && refracts
-                        && let Some(refracted) = waiting.pop()
+                        && let Some(refracted) = pending.pop()
                     {
                         let weight = refracted.weight;
-                        let _ = stack.push(Frame { color, weight });
-                        if stage(NEEDS, Stages::CUTOFF)
+                        let _ = stack.push(Level { color, weight });
+                        if stage(STAGES, Stages::CUTOFF)
                             && let Some(at_hit) = throughputs.pop()
                         {
                             throughput = at_hit * weight;
@@ -757,7 +757,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         }
     }
 
-    /// The objects that a secondary ray can meet first that leaves a side in a direction.
+    /// The objects that a secondary ray can hit first that leaves a side in a direction.
     #[inline(always)]
     fn near(
         &self,
@@ -767,7 +767,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     ) -> ObjectSet {
         let near = candidates.near(direction);
         match cell {
-            Some(cell) if stage(NEEDS, Stages::PLANES) => near.intersection(cell.ahead(direction)),
+            Some(cell) if stage(STAGES, Stages::PLANES) => near.intersection(cell.ahead(direction)),
             _ => near,
         }
     }
@@ -781,7 +781,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         observer: &mut impl Observer<T>,
     ) -> Option<Hit<'a, T>> {
         let closest = self.closest(ray, candidates, observer);
-        let (point, surface, cell) = self.hit_point(ray, &closest)?;
+        let (point, info, cell) = self.hit_point(ray, &closest)?;
         let slope = ray.direction.component_along(point.normal);
         let entering = slope.is_zero_or_negative();
         let normal = if entering {
@@ -794,16 +794,16 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
             facing,
             candidates: self.candidates(facing),
             cell,
-            material: self.material(surface)?,
+            material: self.material(info)?,
             normal,
             cosine: slope.abs(),
             entering,
             outside: point.point.moved_along(normal, point.offset),
             inside: point.point.moved_along(normal, -point.offset),
         };
-        observer.meeting(&Meeting {
+        observer.intersection(&Intersection {
             side: hit.facing,
-            number: surface.number,
+            number: info.number,
             t: closest.t,
             point: point.point,
             normal,
@@ -832,7 +832,8 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     #[inline(always)]
     fn refracted_direction(&self, ray: &Ray<T>, hit: &Hit<'a, T>) -> Option<Vec3<T>> {
         // Index 1 passes straight through, to the bit.
-        if !stage(NEEDS, Stages::BENDING) || hit.material.description().index_of_refraction.is_one()
+        if !stage(STAGES, Stages::BENDING)
+            || hit.material.description().index_of_refraction.is_one()
         {
             return Some(ray.direction);
         }
@@ -847,7 +848,8 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     #[inline(always)]
     fn background(&self, direction: Vec3<T>) -> Color<T> {
         let background = &self.scene.background;
-        if stage(NEEDS, Stages::SKY) && (!stage(NEEDS, Stages::PLAIN_BACKGROUND) || background.sky)
+        if stage(STAGES, Stages::SKY)
+            && (!stage(STAGES, Stages::PLAIN_BACKGROUND) || background.sky)
         {
             Background::sky(direction)
         } else {
@@ -857,26 +859,31 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
 
     /// What the pixels of a row have in common.
     pub fn scanline(&self, y: u16) -> Scanline<T> {
-        let row_height = self.scene.camera.row_height(self.scene.resolution, y);
+        let image_plane_y = self.scene.camera.image_plane_y(self.scene.resolution, y);
         let half_width = self.scene.camera.half_width(self.scene.resolution);
-        self.scanline_of(row_height, half_width)
+        self.scanline_of(image_plane_y, half_width)
     }
 
     /// What the samples at a place in the pixels of a row have in common.
     pub fn scanline_at(&self, y: u16, at: Subpixel) -> Scanline<T> {
-        let row_height = self
+        let image_plane_y = self
             .scene
             .camera
-            .row_height_at(self.scene.resolution, y, at);
+            .image_plane_y_at(self.scene.resolution, y, at);
         let half_width = self.scene.camera.half_width_at(self.scene.resolution, at);
-        self.scanline_of(row_height, half_width)
+        self.scanline_of(image_plane_y, half_width)
     }
 
     #[inline(always)]
-    fn scanline_of(&self, row_height: T, half_width: T) -> Scanline<T> {
+    fn scanline_of(&self, image_plane_y: T, half_width: T) -> Scanline<T> {
         Scanline {
-            row_height,
-            visible: visible_in_row(&self.geometry(), &self.scene.camera, row_height, half_width),
+            image_plane_y,
+            visible: visible_in_row(
+                &self.geometry(),
+                &self.scene.camera,
+                image_plane_y,
+                half_width,
+            ),
         }
     }
 
@@ -891,7 +898,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     pub fn primary_ray_at(&self, scanline: &Scanline<T>, x: u16, at: Subpixel) -> Ray<T> {
         self.scene
             .camera
-            .ray_at(self.scene.resolution, scanline.row_height, x, at)
+            .ray_at(self.scene.resolution, scanline.image_plane_y, x, at)
     }
 
     /// The linear colour of a pixel, each channel in 0…1: a pure function of scene, settings and
@@ -930,21 +937,21 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
 
 macro_rules! specialize {
     ($scalar:ty) => {
-        impl<'a, const NEEDS: u64, const STACK: usize> Tracer<'a, $scalar, NEEDS, STACK> {
-            /// The same tracer with only the stages of `STAGES`, for a scene that is known on the device
+        impl<'a, const STAGES: u64, const STACK: usize> Tracer<'a, $scalar, STAGES, STACK> {
+            /// The same tracer with only the stages of `KEPT`, for a scene that is known on the device
             /// but whose needs are known before.
             ///
             /// # Errors
             ///
             /// [`MissingStages`] when the scene needs more.
-            pub const fn specialize<const STAGES: u64>(
+            pub const fn specialize<const KEPT: u64>(
                 self,
-            ) -> Result<Tracer<'a, $scalar, STAGES, STACK>, MissingStages> {
-                let mut needs = self.scene.needs();
+            ) -> Result<Tracer<'a, $scalar, KEPT, STACK>, MissingStages> {
+                let mut needs = self.scene.stages();
                 if self.cutoff > 0.0 {
                     needs = needs.union(Stages::CUTOFF);
                 }
-                let missing = needs.without(Stages::from_bits(STAGES));
+                let missing = needs.without(Stages::from_bits(KEPT));
                 if !missing.is_empty() {
                     return Err(MissingStages(missing));
                 }
@@ -1033,7 +1040,7 @@ macro_rules! tracer_for {
         $crate::tracer_for!($scene, stack = $crate::DEFAULT_MAX_DEPTH)
     };
     ($scene:path, stack = $stack:expr) => {
-        $crate::tracer_for!($scene, stages = $scene.needs(), stack = $stack)
+        $crate::tracer_for!($scene, stages = $scene.stages(), stack = $stack)
     };
     ($scene:path, cutoff = $cutoff:expr) => {
         $crate::tracer_for!($scene, cutoff = $cutoff, stack = $crate::DEFAULT_MAX_DEPTH)
@@ -1041,7 +1048,7 @@ macro_rules! tracer_for {
     ($scene:path, cutoff = $cutoff:expr, stack = $stack:expr) => {
         $crate::tracer_for!(
             $scene,
-            stages = $scene.needs().union($crate::Stages::CUTOFF),
+            stages = $scene.stages().union($crate::Stages::CUTOFF),
             stack = $stack
         )
         .with_compiled_cutoff($cutoff)
@@ -1052,7 +1059,7 @@ macro_rules! tracer_for {
     ($scene:path, stages = $stages:expr, stack = $stack:expr) => {{
         const STAGES: $crate::Stages = $stages;
         // An item, so that `cargo check` looks at it too.
-        const _: () = $scene.needs().require(STAGES);
+        const _: () = $scene.stages().require(STAGES);
         $crate::Tracer::<'static, _, { STAGES.bits() }, { $stack }>::with_stages($scene)
     }};
 }

@@ -26,7 +26,7 @@ pub enum TestKind {
     Sphere,
     /// Ray against plane.
     Plane,
-    /// Ray against triangle, bounding ball included.
+    /// Ray against triangle, bounding sphere included.
     Triangle,
     /// Ray against an object of any other shape.
     Other,
@@ -34,9 +34,9 @@ pub enum TestKind {
     Box,
 }
 
-/// A meeting of a ray with an object.
+/// An intersection of a ray with an object.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Meeting<'a, T> {
+pub struct Intersection<'a, T> {
     /// The object's side that the ray comes from, by its index among all objects.
     pub side: Side,
     /// The object's place in the text.
@@ -83,7 +83,7 @@ pub trait Observer<T> {
         let _ = kind;
     }
 
-    /// A ray is about to be tested against this object, for a meeting at most `t_max` away. Unless it does
+    /// A ray is about to be tested against this object, for an intersection at most `t_max` away. Unless it does
     /// something else, it tells [`Observer::test`] of the kind.
     #[inline(always)]
     fn test_object(&mut self, object: Object<'_, T>, ray: &Ray<T>, t_max: T) {
@@ -96,19 +96,19 @@ pub trait Observer<T> {
         });
     }
 
-    /// The ray that was cast last, shadow rays aside, meets an object.
+    /// The ray that was cast last, shadow rays aside, hits an object.
     #[inline(always)]
-    fn meeting(&mut self, meeting: &Meeting<'_, T>) {
-        let _ = meeting;
+    fn intersection(&mut self, intersection: &Intersection<'_, T>) {
+        let _ = intersection;
     }
 
-    /// What becomes of the next light at that meeting.
+    /// What becomes of the next light at that intersection.
     #[inline(always)]
     fn light(&mut self, light: LightAtHit<T>) {
         let _ = light;
     }
 
-    /// The meeting's colour without secondary rays, not clamped.
+    /// The intersection's colour without secondary rays, not clamped.
     #[inline(always)]
     fn local_color(&mut self, color: Color<T>) {
         let _ = color;

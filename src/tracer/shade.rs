@@ -10,7 +10,7 @@ use crate::real::Real;
 use crate::scalar::Scalar;
 use crate::stages::Stages;
 
-impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, STACK> {
+impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES, STACK> {
     /// Ambient light, and of every light that reaches the hit the diffuse share and the highlight
     /// (Phong 1975). Not clamped.
     #[inline(always)]
@@ -23,16 +23,16 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
     ) -> Color<T> {
         let material = hit.material.description();
         let mut color = self.scene.ambient_color(material);
-        if !stage(NEEDS, Stages::LIGHT) {
+        if !stage(STAGES, Stages::LIGHT) {
             return color;
         }
-        if stage(NEEDS, Stages::SHADOWS) && hit.candidates.shadowed {
+        if stage(STAGES, Stages::SHADOWS) && hit.candidates.shadowed {
             observer.light(LightAtHit::Enclosed);
             return color;
         }
         for light in self.scene.lights {
             color = self.lit(ray, hit, light, color, depth, observer);
-            if !stage(NEEDS, Stages::SEVERAL_LIGHTS) {
+            if !stage(STAGES, Stages::SEVERAL_LIGHTS) {
                 break;
             }
         }
@@ -67,7 +67,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         let distance = distance_squared.sqrt();
         let inverse = T::ONE.over(distance);
         let direction = to_light * inverse;
-        if stage(NEEDS, Stages::SHADOWS) {
+        if stage(STAGES, Stages::SHADOWS) {
             let shadow = Ray {
                 origin: hit.outside,
                 direction,
@@ -84,7 +84,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
         let diffuse = reflected(light.diffuse, cosine, material.diffuse);
         let mut color = color + diffuse;
         let mut specular = None;
-        if stage(NEEDS, Stages::SPECULAR) && !material.specular.is_black() {
+        if stage(STAGES, Stages::SPECULAR) && !material.specular.is_black() {
             let alignment = alignment(
                 Real(cosine),
                 Real(hit.cosine),
@@ -117,7 +117,7 @@ impl<'a, T: Scalar, const NEEDS: u64, const STACK: usize> Tracer<'a, T, NEEDS, S
             T::ONE
         };
         let whole = material.whole_shininess();
-        if stage(NEEDS, Stages::FRACTIONAL_SHININESS) && whole == Material::<T>::FRACTIONAL {
+        if stage(STAGES, Stages::FRACTIONAL_SHININESS) && whole == Material::<T>::FRACTIONAL {
             base.powf(material.description().shininess)
         } else {
             power(Real(base), whole).0

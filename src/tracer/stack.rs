@@ -7,11 +7,11 @@ use crate::color::Color;
 use crate::ray::Ray;
 
 /// The frames from the primary hit down to the ray under way, whose depth is their number.
-pub(super) type Stack<T, const CAPACITY: usize> = Vec<Frame<T>, CAPACITY>;
+pub(super) type Stack<T, const CAPACITY: usize> = Vec<Level<T>, CAPACITY>;
 
 /// The refracted rays that wait, those of the frames with a negative weight in their order. Few hits
 /// have one, so that they would be dead weight in the frames.
-pub(super) type Waiting<T, const CAPACITY: usize> = Vec<Refracted<T>, CAPACITY>;
+pub(super) type Pending<T, const CAPACITY: usize> = Vec<Refracted<T>, CAPACITY>;
 
 /// For each refracted ray that waits, the throughput at its hit, with a cut-off alone: in the frames it
 /// would take room without one.
@@ -19,7 +19,7 @@ pub(super) type Throughputs<T, const CAPACITY: usize> = Vec<T, CAPACITY>;
 
 /// A hit whose colour waits for a secondary ray.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Frame<T> {
+pub(super) struct Level<T> {
     /// What is known of the colour so far, not yet clamped.
     pub(super) color: Color<T>,
     /// The coefficient of the ray that is under way; negative, −0 too, while the refracted ray waits.
@@ -30,7 +30,7 @@ pub(super) struct Frame<T> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Refracted<T> {
     pub(super) ray: Ray<T>,
-    /// The objects it can meet first.
+    /// The objects it can hit first.
     pub(super) candidates: ObjectSet,
     /// What its colour is multiplied with.
     pub(super) weight: T,

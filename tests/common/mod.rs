@@ -5,8 +5,8 @@
 #![allow(dead_code, unused_imports, unreachable_pub)]
 
 pub(crate) mod canvas;
-pub(crate) mod clear_misses;
 pub(crate) mod picture;
+pub(crate) mod quick_reject;
 pub(crate) mod random;
 #[path = "settled.rs"]
 pub(crate) mod sampling;

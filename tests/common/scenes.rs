@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-pub use scanray::Shape;
+pub use scanray::shape::Shape;
 use scanray::shape::Transform;
 use scanray::{
-    Background, Camera, Color, FromDecimal, Light, MaterialDescription, PoolsMut, Resolution,
-    Scalar, Scene, SceneError, ScenePools, Vec3,
+    Background, Camera, Color, Light, MaterialDescription, Resolution, Scalar, Scene, SceneError,
+    ScenePools, Vec3, parser::FromDecimal, pools::PoolsMut,
 };
 
 /// A file of the repository.
@@ -152,7 +152,7 @@ impl<T: Scalar> Model<T> {
         let parts = scene
             .objects()
             .map(|object| Part {
-                material: scene.material(object.surface()),
+                material: scene.material(object.info()),
                 shape: object.shape(),
             })
             .collect();

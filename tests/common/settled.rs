@@ -16,7 +16,9 @@ pub struct View<T> {
 
 impl<T: Scalar> View<T> {
     /// The crate's camera of a tracer.
-    pub fn of<const NEEDS: u64, const STACK: usize>(tracer: &Tracer<'_, T, NEEDS, STACK>) -> Self {
+    pub fn of<const STAGES: u64, const STACK: usize>(
+        tracer: &Tracer<'_, T, STAGES, STACK>,
+    ) -> Self {
         Self {
             position: tracer.scene().camera().position,
             size: tracer.resolution(),
@@ -52,16 +54,16 @@ pub fn ray_beside<T: Scalar>(
 
 /// The f64 colour of a pixel, if it stays within one level of 255 while the sample moves by up to a
 /// thousandth of a pixel: then rounding alone may not move it either.
-pub fn settled_color<const NEEDS: u64, const STACK: usize>(
-    tracer: &Tracer<'_, f64, NEEDS, STACK>,
+pub fn settled_color<const STAGES: u64, const STACK: usize>(
+    tracer: &Tracer<'_, f64, STAGES, STACK>,
     pixel: (u16, u16),
 ) -> Option<Color<f64>> {
     settled_through(tracer, &View::of(tracer), pixel)
 }
 
 /// [`settled_color`] of another camera's picture.
-pub fn settled_through<const NEEDS: u64, const STACK: usize>(
-    tracer: &Tracer<'_, f64, NEEDS, STACK>,
+pub fn settled_through<const STAGES: u64, const STACK: usize>(
+    tracer: &Tracer<'_, f64, STAGES, STACK>,
     view: &View<f64>,
     pixel: (u16, u16),
 ) -> Option<Color<f64>> {

@@ -4,7 +4,9 @@
 // Each target uses one of them.
 #![allow(dead_code)]
 
-use scanray::{Color, FromDecimal, RayCount, Resolution, Scalar, ScenePools, Tracer};
+use scanray::{
+    Color, Resolution, Scalar, ScenePools, Tracer, parser::FromDecimal, tracer::RayCount,
+};
 
 /// Any bytes are a scene or an error at a place of the text, which leaves the pools empty.
 pub(crate) fn parse(text: &[u8]) {

@@ -1,12 +1,12 @@
-//! Leaving out objects that a ray cannot meet changes no bit: scenes with and without candidates.
+//! Leaving out objects that a ray cannot hit changes no bit: scenes with and without candidates.
 
-use crate::common::clear_misses::ClearMisses;
+use crate::common::quick_reject::ClearMisses;
 use crate::common::random::Random;
 use crate::common::scenes::{Model, Part, RoomyPools, Shape, load, names};
 use scanray::shape::ShapeError;
 use scanray::{
-    Background, Camera, Color, FromDecimal, Light, Material, MaterialDescription, ObjectSet,
-    PoolsMut, Resolution, Scalar, Scene, SceneError, ScenePools, Tracer, Vec3,
+    Background, Camera, Color, Light, Material, MaterialDescription, Resolution, Scalar, Scene,
+    SceneError, ScenePools, Tracer, Vec3, accel::ObjectSet, parser::FromDecimal, pools::PoolsMut,
 };
 
 /// Draws a scene with its candidates and by brute force and compares all bits. How many tests by brute force
@@ -81,7 +81,7 @@ fn scenes_of_the_repository<T: Scalar + FromDecimal>() {
             height: 120,
         };
         compare(pools.as_scene(), resolution, || name.clone());
-        // A ray that leaves an object outwards does not meet it again: that alone is two pairs each.
+        // A ray that leaves an object outwards does not hit it again: that alone is two pairs each.
         let (excluded, objects) = (
             excluded_pairs(pools.as_scene()),
             pools.as_scene().object_count(),
@@ -222,7 +222,7 @@ fn fill<T: Scalar>(pools: &mut PoolsMut<'_, T>, model: &Model<T>) {
 
 fn crowded_scenes<T: Scalar>(default_seed: u64, scenes: usize) {
     let random = Random::of_test(default_seed);
-    let (mut excluded, mut objects, mut clear_misses) = (0, 0, 0);
+    let (mut excluded, mut objects, mut quick_reject) = (0, 0, 0);
     for number in 0..scenes {
         let offset = [0.0, 0.0, 1.0, -30.0, 1000.0][random.below(5)];
         let scale = [1.0, 1.0, 1e-3, 1e3][random.below(4)];
@@ -234,20 +234,20 @@ fn crowded_scenes<T: Scalar>(default_seed: u64, scenes: usize) {
             width: 24,
             height: 18,
         };
-        clear_misses += compare(pools.as_scene(), resolution, || {
+        quick_reject += compare(pools.as_scene(), resolution, || {
             format!("scene {number}, offset {offset}, scale {scale}: {model:#?}")
         });
         excluded += excluded_pairs(pools.as_scene());
         objects += pools.as_scene().object_count();
     }
     println!(
-        "{scenes} scenes of {objects} objects, {excluded} pairs excluded, {clear_misses} clear misses"
+        "{scenes} scenes of {objects} objects, {excluded} pairs excluded, {quick_reject} clear misses"
     );
     let single = T::NAME == f32::NAME;
     assert_eq!(
-        clear_misses > 1000 * scenes as u64,
+        quick_reject > 1000 * scenes as u64,
         single,
-        "{clear_misses}"
+        "{quick_reject}"
     );
     assert!(excluded > 4 * objects, "only {excluded} pairs excluded");
 }

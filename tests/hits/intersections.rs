@@ -4,10 +4,10 @@
 use crate::common::random::Random;
 use crate::common::scenes::RoomyPools;
 use scanray::ScenePools;
-use scanray::shape::{Plane, Sphere, Surface, Triangle};
-use scanray::{MaterialDescription, Object, Ray, Scalar, Side, Tracer, Vec3};
+use scanray::shape::{ObjectInfo, Plane, Sphere, Triangle};
+use scanray::{MaterialDescription, Ray, Scalar, Tracer, Vec3, ray::Side, shape::Object};
 
-const SURFACE: Surface = Surface {
+const SURFACE: ObjectInfo = ObjectInfo {
     material: 0,
     number: 0,
 };
@@ -89,7 +89,7 @@ fn check_ends<T: Scalar>(
 /// Rays at a sphere of any size from any distance, near its silhouette and inside it.
 fn spheres<T: Scalar>(seed: u64, rounds: usize) {
     let random = Random::of_test(seed);
-    let (mut hits, mut misses, mut clear_misses) = (0, 0, 0);
+    let (mut hits, mut misses, mut quick_reject) = (0, 0, 0);
     for _ in 0..rounds {
         let radius = T::from_f64(random.log_between(1e-6, 1e6));
         let r = radius.to_f64();
@@ -106,9 +106,9 @@ fn spheres<T: Scalar>(seed: u64, rounds: usize) {
         let what = || format!("{sphere:?}, {ray:?}");
 
         let t = sphere.intersect(&ray, T::MAX);
-        if sphere.clearly_misses(&ray) {
+        if sphere.quick_reject(&ray) {
             assert_eq!(t, None, "clearly missed: {}", what());
-            clear_misses += 1;
+            quick_reject += 1;
         }
         check_ends(
             t,
@@ -172,11 +172,11 @@ fn spheres<T: Scalar>(seed: u64, rounds: usize) {
             "{hit:?}"
         );
     }
-    println!("{hits} hits, {misses} misses, {clear_misses} of them clear");
+    println!("{hits} hits, {misses} misses, {quick_reject} of them clear");
     assert!(
         hits > rounds / 4
             && misses > rounds / 20
-            && (clear_misses > misses / 4) == (T::NAME == f32::NAME)
+            && (quick_reject > misses / 4) == (T::NAME == f32::NAME)
     );
 }
 
@@ -194,7 +194,7 @@ fn spheres_in_double_precision() {
 #[test]
 fn clear_misses_are_misses_at_the_edge() {
     let random = Random::of_test(83);
-    let (mut hits, mut clear_misses) = (0, 0);
+    let (mut hits, mut quick_reject) = (0, 0);
     for _ in 0..1_000_000 {
         let radius = random.log_between(1e-18, 1e18) as f32;
         let r = f64::from(radius);
@@ -219,13 +219,13 @@ fn clear_misses_are_misses_at_the_edge() {
         };
         let t = sphere.intersect(&ray, f32::MAX);
         hits += usize::from(t.is_some());
-        if sphere.clearly_misses(&ray) {
+        if sphere.quick_reject(&ray) {
             assert_eq!(t, None, "{sphere:?}, {ray:?}");
-            clear_misses += 1;
+            quick_reject += 1;
         }
     }
-    println!("{hits} hits, {clear_misses} clear misses");
-    assert!(hits > 200_000 && clear_misses > 30_000);
+    println!("{hits} hits, {quick_reject} clear misses");
+    assert!(hits > 200_000 && quick_reject > 30_000);
 }
 
 /// Rays at a plane from both sides, along it and away from it.
@@ -316,7 +316,7 @@ fn planes_in_double_precision() {
 /// Rays at triangles of any size and distance, at places inside and outside of them.
 fn triangles<T: Scalar>(seed: u64, rounds: usize) {
     let random = Random::of_test(seed);
-    let (mut hits, mut misses, mut clear_misses) = (0, 0, 0);
+    let (mut hits, mut misses, mut quick_reject) = (0, 0, 0);
     for _ in 0..rounds {
         let size = random.log_between(1e-4, 1e4);
         let place: Vec3<f64> = random.point(size * random.log_between(1e-2, 1e2));
@@ -344,9 +344,9 @@ fn triangles<T: Scalar>(seed: u64, rounds: usize) {
         let what = || format!("{triangle:?}, {ray:?}");
 
         let found = triangle.intersect(&ray, T::MAX);
-        if triangle.clearly_misses(&ray) {
+        if triangle.quick_reject(&ray) {
             assert_eq!(found, None, "clearly missed: {}", what());
-            clear_misses += 1;
+            quick_reject += 1;
         }
         check_ends(
             found.map(|(t, _)| t),
@@ -356,7 +356,7 @@ fn triangles<T: Scalar>(seed: u64, rounds: usize) {
             &what,
         );
 
-        // Where the ray's line meets the plane, in f64 (Möller and Trumbore).
+        // Where the ray's line hits the plane, in f64 (Möller and Trumbore).
         let (o, d) = (wide(ray.origin), wide(ray.direction));
         let p = d.cross(e3);
         let determinant = e2.dot(p);
@@ -434,11 +434,11 @@ fn triangles<T: Scalar>(seed: u64, rounds: usize) {
             what()
         );
     }
-    println!("{hits} hits, {misses} misses, {clear_misses} of them clear");
+    println!("{hits} hits, {misses} misses, {quick_reject} of them clear");
     assert!(
         hits > rounds / 10
             && misses > rounds / 10
-            && (clear_misses > misses / 4) == (T::NAME == f32::NAME)
+            && (quick_reject > misses / 4) == (T::NAME == f32::NAME)
     );
 }
 
@@ -453,7 +453,7 @@ fn triangles_in_double_precision() {
 }
 
 #[test]
-fn rays_that_leave_a_flat_object_do_not_meet_it_again() {
+fn rays_that_leave_a_flat_object_do_not_hit_it_again() {
     let random = Random::of_test(90);
     for round in 0..20_000 {
         let scale = random.log_between(1e-4, 1e4);
@@ -477,8 +477,8 @@ fn rays_that_leave_a_flat_object_do_not_meet_it_again() {
                 direction: random.direction(),
                 leaves: Side::new(index as u32, random.below(2) == 0),
             };
-            let met = tracer.nearest(&leaving).map(|nearest| nearest.index);
-            assert_ne!(met, Some(index), "{leaving:?}");
+            let hit = tracer.nearest(&leaving).map(|nearest| nearest.index);
+            assert_ne!(hit, Some(index), "{leaving:?}");
             let others = Tracer::new(match index {
                 0 => scene.with_planes(&[]),
                 _ => scene.with_triangles(&[]),
@@ -507,7 +507,7 @@ fn geometry(object: Object<'_>) -> String {
 /// answers, and what hides it is found by the shadow test too.
 #[test]
 fn nearest_does_not_depend_on_the_order_of_objects() {
-    type Add = Box<dyn Fn(&mut scanray::PoolsMut<'_, f32>)>;
+    type Add = Box<dyn Fn(&mut scanray::pools::PoolsMut<'_, f32>)>;
     let random = Random::of_test(91);
     let material = MaterialDescription::default();
     for _ in 0..300 {

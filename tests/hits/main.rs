@@ -1,9 +1,9 @@
-//! What a ray meets: the shapes' formulas, and the same hits with less work. `cargo test --test hits tree` runs the tests
+//! What a ray hits: the shapes' formulas, and the same hits with less work. `cargo test --test hits bvh` runs the tests
 //! of one file.
 
+mod bvh;
 mod candidates;
+mod candidates_special_positions;
 #[path = "../common/mod.rs"]
 mod common;
 mod intersections;
-mod tree;
-mod visibility;

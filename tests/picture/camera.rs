@@ -10,7 +10,7 @@ const SIZE: Resolution = Resolution {
 };
 
 /// The rays of the crate's camera are those of the contract's formula, within rounding.
-fn camera_follows_its_formula<T: Scalar + scanray::FromDecimal>() {
+fn camera_follows_its_formula<T: Scalar + scanray::parser::FromDecimal>() {
     let pools = scenes::load::<T>("window-room");
     for size in [
         SIZE,

@@ -3,8 +3,8 @@
 use crate::common::sampling::{bits, channels};
 use crate::common::scenes::{Model, Part, Shape};
 use scanray::{
-    Background, Color, DepthError, Light, MaterialDescription, Ray, Resolution, Scalar, Tracer,
-    Vec3,
+    Background, Color, Light, MaterialDescription, Ray, Resolution, Scalar, Tracer, Vec3,
+    tracer::DepthError,
 };
 
 const SIZE: Resolution = Resolution {
@@ -326,7 +326,7 @@ fn a_sheet_of_glass_moves_what_is_behind_it() {
             sine / (1.0 - sine * sine).sqrt(),
         );
         let aside = if outside > 0.0 { inside / outside } else { 1.0 };
-        // Where the ray meets the wall, in units of its slopes x/z and y/z.
+        // Where the ray hits the wall, in units of its slopes x/z and y/z.
         let reach = 3.0 - thickness + thickness * aside;
         let (px, py) = (d[0] / d[2] * reach, d[1] / d[2] * reach);
         if (px - py).abs() < 1e-9 {

@@ -7,8 +7,10 @@ use embedded_graphics::pixelcolor::{
     Gray2, Gray4, Gray8, GrayColor, Rgb555, Rgb565, Rgb666, Rgb888, RgbColor,
 };
 use scanray::{
-    Background, Color, DisplayColor, Light, MaterialDescription, MissingStages, Picture,
-    Resolution, Scalar, Scene, Stages, Tracer, Vec3, WorkCount,
+    Background, Color, Light, MaterialDescription, Picture, Resolution, Scalar, Scene, Stages,
+    Tracer, Vec3,
+    render::DisplayColor,
+    tracer::{MissingStages, WorkCount},
 };
 
 const SIZE: Resolution = Resolution {

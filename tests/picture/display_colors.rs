@@ -8,8 +8,8 @@ use embedded_graphics::pixelcolor::{
     Rgb555, Rgb565, Rgb666, Rgb888, RgbColor,
 };
 use scanray::{
-    Color, DisplayColor, Dithered, Exact, Picture, PixelSource, Quantizer, Resolution, Scalar,
-    ThroughRgb888,
+    Color, Picture, Resolution, Scalar,
+    render::{DisplayColor, Dithered, Exact, PixelSource, Quantizer, ThroughRgb888},
 };
 
 use crate::common::random::Random;

@@ -7,7 +7,10 @@ use std::path::{Path, PathBuf};
 use crate::common::picture::Rgb;
 use crate::common::{is_blessing, scenes};
 use embedded_graphics::pixelcolor::{BinaryColor, Gray4, Rgb565, Rgb888, RgbColor};
-use scanray::{Picture, PixelSource, Quantizer, Resolution, Tracer};
+use scanray::{
+    Picture, Resolution, Tracer,
+    render::{PixelSource, Quantizer},
+};
 
 const COMMAND: &str = "BLESS=1 cargo test --test picture golden";
 

@@ -9,8 +9,8 @@ use crate::common::scenes::load;
 use embedded_graphics::Drawable;
 use embedded_graphics::pixelcolor::{BinaryColor, Rgb888};
 use scanray::{
-    Adaptive, Budget, CenterSample, Color, Picture, PixelSource, Progress, Progressive, Quantizer,
-    Resolution, Tracer,
+    Color, Picture, Resolution, Tracer,
+    render::{Adaptive, Budget, CenterSample, PixelSource, Progress, Progressive, Quantizer},
 };
 
 /// Colours that tell where they belong, and which pixels were asked for.
@@ -128,17 +128,18 @@ fn each_pass_shows_its_blocks_and_no_pixel_is_traced_twice() {
                 assert_eq!(traced.len(), every_pixel, "{width}x{height}, {room}");
             };
             check(&|source| {
-                let picture = Picture::<_, scanray::Exact<Rgb888>>::new(source);
+                let picture = Picture::<_, scanray::render::Exact<Rgb888>>::new(source);
                 passes(&picture, Progressive::of(&picture), 4, room);
                 assert_eq!(source.traced.borrow().len(), every_pixel);
             });
             check(&|source| {
-                let picture = Picture::<_, scanray::Exact<Rgb888>>::new(source);
+                let picture = Picture::<_, scanray::render::Exact<Rgb888>>::new(source);
                 passes(&picture, Progressive::from_half(&picture), 2, room);
                 assert_eq!(source.traced.borrow().len(), every_pixel);
             });
             check(&|source| {
-                let picture = Picture::<_, scanray::Exact<BinaryColor>>::new(source).dithered();
+                let picture =
+                    Picture::<_, scanray::render::Exact<BinaryColor>>::new(source).dithered();
                 passes(&picture, Progressive::of(&picture), 4, room);
                 assert_eq!(source.traced.borrow().len(), every_pixel);
             });
@@ -152,7 +153,7 @@ fn instalments_trace_each_pixel_once_and_are_counted() {
     for (width, height) in SIZES {
         for _ in 0..20 {
             let source = Coordinates::new(width, height);
-            let picture: Picture<_, scanray::Exact<Rgb888>> = Picture::new(&source);
+            let picture: Picture<_, scanray::render::Exact<Rgb888>> = Picture::new(&source);
             let mut progressive = Progressive::of(&picture);
             let mut canvas = Canvas::new(width, height);
             let mut buffer = vec![Color::BLACK; 1 + random.below(40)];
@@ -177,7 +178,7 @@ fn instalments_trace_each_pixel_once_and_are_counted() {
                     assert_eq!(traced - before, amount, "the budget is used up");
                 }
             }
-            assert_blocks::<scanray::Exact<Rgb888>>(&canvas, picture.resolution(), 1);
+            assert_blocks::<scanray::render::Exact<Rgb888>>(&canvas, picture.resolution(), 1);
         }
     }
 }
@@ -185,7 +186,7 @@ fn instalments_trace_each_pixel_once_and_are_counted() {
 #[test]
 fn rows_that_are_new_take_one_fill() {
     let source = Coordinates::new(18, 11);
-    let picture: Picture<_, scanray::Exact<Rgb888>> = Picture::new(&source);
+    let picture: Picture<_, scanray::render::Exact<Rgb888>> = Picture::new(&source);
     let mut progressive = Progressive::of(&picture);
     let mut canvas = Canvas::new(18, 11);
     let mut buffer = [Color::BLACK; 18];
@@ -206,7 +207,7 @@ fn rows_that_are_new_take_one_fill() {
 #[test]
 fn what_a_display_refuses_is_drawn_again() {
     let source = Coordinates::new(18, 11);
-    let picture: Picture<_, scanray::Exact<Rgb888>> = Picture::new(&source);
+    let picture: Picture<_, scanray::render::Exact<Rgb888>> = Picture::new(&source);
     for fails_at in 0..30 {
         let mut display = FailingDisplay::new(Canvas::new(18, 11), fails_at);
         let mut progressive = Progressive::of(&picture);
@@ -223,7 +224,7 @@ fn what_a_display_refuses_is_drawn_again() {
             }
         }
         assert_eq!(errors, 1, "call {fails_at}");
-        assert_blocks::<scanray::Exact<Rgb888>>(&display.canvas, picture.resolution(), 1);
+        assert_blocks::<scanray::render::Exact<Rgb888>>(&display.canvas, picture.resolution(), 1);
     }
 }
 
@@ -237,7 +238,7 @@ fn scenes_end_with_the_bits_of_the_whole_picture() {
     let tracer = Tracer::new(pools.as_scene()).with_resolution(size);
     let mut centers = vec![CenterSample::EMPTY; 74];
     let adaptive = Adaptive::<_, 4>::new(&tracer, 0.1, &mut centers);
-    let picture: Picture<_, scanray::Exact<Rgb888>> = Picture::new(&adaptive);
+    let picture: Picture<_, scanray::render::Exact<Rgb888>> = Picture::new(&adaptive);
     let mut expected = Canvas::new(size.width, size.height);
     let Ok(()) = picture.draw(&mut expected);
     let mut canvas = Canvas::new(size.width, size.height);
@@ -257,13 +258,13 @@ fn scenes_end_with_the_bits_of_the_whole_picture() {
 fn pictures_at_the_ends_of_the_range() {
     for (width, height) in [(u16::MAX, 3), (3, u16::MAX), (0, 5), (5, 0), (0, 0)] {
         let source = Coordinates::new(width, height);
-        let picture: Picture<_, scanray::Exact<Rgb888>> = Picture::new(&source);
+        let picture: Picture<_, scanray::render::Exact<Rgb888>> = Picture::new(&source);
         let mut canvas = Canvas::new(width, height);
         let mut progressive = Progressive::of(&picture);
         let mut buffer = vec![Color::BLACK; 70_000];
         let progress = progressive.draw(&picture, &mut canvas, &mut buffer, Budget::Unlimited);
         assert_eq!(progress, Ok(Progress::Done));
         assert_eq!(canvas.drawn(), usize::from(width) * usize::from(height));
-        assert_blocks::<scanray::Exact<Rgb888>>(&canvas, picture.resolution(), 1);
+        assert_blocks::<scanray::render::Exact<Rgb888>>(&canvas, picture.resolution(), 1);
     }
 }

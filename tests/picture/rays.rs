@@ -1,7 +1,7 @@
 //! No pixel of any scene casts more rays than promised.
 
 use crate::common::scenes;
-use scanray::{ScenePools, Tracer, WorkCount};
+use scanray::{ScenePools, Tracer, tracer::WorkCount};
 
 #[test]
 fn no_pixel_casts_more_rays_than_promised() {

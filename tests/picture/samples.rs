@@ -6,8 +6,12 @@ use crate::common::scenes::{load, names};
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
 use embedded_graphics::primitives::PointsIter;
 use scanray::{
-    Adaptive, Budget, CenterSample, Color, Exact, Frame, Picture, PixelSource, Progress,
-    Resolution, Scalar, Subpixel, Supersampled, Tracer, WorkCount, differ,
+    Color, Picture, Resolution, Scalar, Tracer,
+    camera::Subpixel,
+    render::{
+        Adaptive, Budget, CenterSample, Exact, Frame, PixelSource, Progress, Supersampled, differ,
+    },
+    tracer::WorkCount,
 };
 
 const SIZE: Resolution = Resolution {

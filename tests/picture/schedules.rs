@@ -13,8 +13,8 @@ use embedded_graphics::mock_display::MockDisplay;
 use embedded_graphics::pixelcolor::{BinaryColor, PixelColor, Rgb565, Rgb888};
 use embedded_graphics::primitives::Rectangle;
 use scanray::{
-    Budget, Color, Exact, Frame, Picture, PixelSource, Progress, Quantizer, Resolution, ScenePools,
-    Tracer,
+    Color, Picture, Resolution, ScenePools, Tracer,
+    render::{Budget, Exact, Frame, PixelSource, Progress, Quantizer},
 };
 
 const SIZE: Resolution = Resolution {

@@ -3,7 +3,7 @@
 
 use crate::common::sampling::bits;
 use crate::common::scenes::load;
-use scanray::{MissingStages, Resolution, ScenePools, Stages, Tracer};
+use scanray::{Resolution, ScenePools, Stages, Tracer, tracer::MissingStages};
 
 const SIZE: Resolution = Resolution {
     width: 80,
@@ -20,14 +20,18 @@ const COMMON: Stages = Stages::SPHERES
     .union(Stages::SPECULAR)
     .union(Stages::REFLECTION);
 
-/// Draws a scene with the stages `NEEDS` alone, which must be exactly those it needs.
-fn draws_with<const NEEDS: u64>(name: &str) {
+/// Draws a scene with the stages `STAGES` alone, which must be exactly those it needs.
+fn draws_with<const STAGES: u64>(name: &str) {
     let pools = load::<f32>(name);
     let all = Tracer::new(pools.as_scene()).with_resolution(SIZE);
     assert_eq!(all.stages(), Stages::ALL);
     assert_eq!(all.with_bvh().stages(), Stages::ALL.union(Stages::BVH));
-    assert_eq!(pools.as_scene().needs(), Stages::from_bits(NEEDS), "{name}");
-    let few = all.specialize::<NEEDS>().unwrap();
+    assert_eq!(
+        pools.as_scene().stages(),
+        Stages::from_bits(STAGES),
+        "{name}"
+    );
+    let few = all.specialize::<STAGES>().unwrap();
     for y in 0..SIZE.height {
         for x in 0..SIZE.width {
             assert_eq!(
@@ -100,8 +104,8 @@ fn loops_are_needed_where_there_are_several() {
         )
         .unwrap();
     let one_light = pools.as_scene();
-    assert!(one_light.needs().contains(Stages::SEVERAL_SPHERES));
-    assert!(!one_light.needs().contains(Stages::SEVERAL_LIGHTS));
+    assert!(one_light.stages().contains(Stages::SEVERAL_SPHERES));
+    assert!(!one_light.stages().contains(Stages::SEVERAL_LIGHTS));
     let pixels = || (0..6).flat_map(|y| (0..8).map(move |x| (x, y)));
     let dark = Tracer::new(one_light);
     let before: Vec<_> = pixels().map(|(x, y)| bits(dark.pixel(x, y))).collect();
@@ -110,7 +114,7 @@ fn loops_are_needed_where_there_are_several() {
     pools.as_mut().add_light(light).unwrap();
     pools.prepare();
     let scene = pools.as_scene();
-    assert!(scene.needs().contains(LOOPS));
+    assert!(scene.stages().contains(LOOPS));
     let all = Tracer::new(scene);
     let few = all.specialize::<{ Pools::STAGES.bits() }>().unwrap();
     let mut after = Vec::new();
@@ -136,7 +140,7 @@ fn fractional_shininess_is_needed_where_it_shows() {
     let needs = |text: String| {
         let mut pools: scanray::ScenePools = scanray::ScenePools::new();
         pools.parse(text.as_bytes()).unwrap();
-        pools.as_scene().needs()
+        pools.as_scene().stages()
     };
     let shining = Stages::SPHERES
         .union(Stages::LIGHT)

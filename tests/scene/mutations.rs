@@ -2,7 +2,7 @@
 //! without a channel that is not finite, or an error at the place of that number.
 
 use crate::common::scenes;
-use scanray::{FromDecimal, Resolution, Scalar, ScenePools, Tracer};
+use scanray::{Resolution, Scalar, ScenePools, Tracer, parser::FromDecimal};
 
 /// What takes the place of a number: not finite, too large for `f32`, out of most ranges, subnormal in `f32`,
 /// nothing, no number.

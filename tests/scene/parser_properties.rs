@@ -5,8 +5,9 @@ use crate::common::scenes::{self, RoomyPools};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use scanray::{
-    Color, Found, FromDecimal, MaterialDescription, Object, ParseError, Report, Resolution, Scalar,
-    ScenePools, Vec3,
+    Color, MaterialDescription, ParseError, Resolution, Scalar, ScenePools, Vec3,
+    parser::{Found, FromDecimal, Report},
+    shape::Object,
 };
 
 /// The same cases in every run; `PROPTEST_RNG_SEED` and `PROPTEST_CASES` try others.
@@ -282,11 +283,11 @@ fn assert_stored(scene: &SceneNumbers, pools: &RoomyPools<f32>) {
     assert_eq!(light.diffuse, color(three(&scene.light, 6)));
     assert_eq!(stored.object_count(), scene.objects.len());
     for (i, (object, numbers)) in stored.objects().zip(&scene.objects).enumerate() {
-        assert_eq!(object.surface().number as usize, i);
+        assert_eq!(object.info().number as usize, i);
         assert_object(&object, numbers);
         let m = numbers.material;
         assert_eq!(
-            stored.material(object.surface()),
+            stored.material(object.info()),
             MaterialDescription {
                 diffuse: color(three(&m, 0)),
                 specular: color(three(&m, 3)),
@@ -306,7 +307,7 @@ fn assert_object(object: &Object<'_>, numbers: &ObjectNumbers) {
         (Object::Sphere(sphere), 0) => {
             assert_same_bits(sphere.center(), vector(three(g, 0)));
             assert_eq!(sphere.radius(), g[3]);
-            // No ray meets a sphere whose square loses digits.
+            // No ray hits a sphere whose square loses digits.
             let square = g[3] * g[3];
             let stored = if square.is_normal() { square } else { -1.0 };
             assert_eq!(sphere.radius_squared(), stored);

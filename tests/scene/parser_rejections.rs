@@ -7,7 +7,11 @@
 use std::path::PathBuf;
 
 use crate::common::{is_blessing, scenes};
-use scanray::{Background, Color, Expected, Found, ParseError, Pool, Resolution, ScenePools, Vec3};
+use scanray::{
+    Background, Color, ParseError, Resolution, ScenePools, Vec3,
+    parser::{Expected, Found},
+    pools::Pool,
+};
 
 /// Parses a text into pools that hold another scene; the error, after which the pools must be empty.
 fn rejection(text: &[u8]) -> Result<ParseError, String> {
@@ -410,7 +414,7 @@ fn colors_and_intensities_above_one_are_accepted() {
     assert_eq!(scene.lights()[0].diffuse, Color::new(4.0, 5.0, 6.0));
     assert_eq!(scene.ambient(), 7.5);
     assert_eq!(scene.background().color, Color::new(8.0, 9.0, 10.0));
-    let material = scene.material(scene.spheres()[0].surface());
+    let material = scene.material(scene.spheres()[0].info());
     assert_eq!(material.ambient, Color::new(1.5, 2.5, 3.5));
     assert_eq!(material.reflection, 1.2);
 }

@@ -2,8 +2,9 @@
 
 use crate::common::scenes::{Shape, load};
 use scanray::{
-    Camera, Color, Light, MaterialDescription, Pool, PoolsMut, Resolution, Scene, SceneError,
-    ScenePools, Stages, Tracer, Vec3,
+    Camera, Color, Light, MaterialDescription, Resolution, Scene, SceneError, ScenePools, Stages,
+    Tracer, Vec3,
+    pools::{Pool, PoolsMut},
 };
 
 scanray::scene_pools! {

@@ -8,7 +8,7 @@
 use std::{env, error::Error, fs, io::Write as _};
 
 use embedded_graphics::pixelcolor::{Gray4, GrayColor, Rgb888, RgbColor};
-use scanray::{Exact, Picture, PixelSource, Resolution, ScenePools, Tracer};
+use scanray::{render::{Exact, PixelSource}, Picture, Resolution, ScenePools, Tracer};
 
 #[path = "../../src/bad_scenes.rs"]
 mod bad_scenes;

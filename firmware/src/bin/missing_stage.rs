@@ -10,6 +10,6 @@ board::entry!(program);
 static SCENE: Scene<'static> = include!(concat!(env!("OUT_DIR"), "/scene.rs"));
 
 fn program() -> Result<(), &'static str> {
-    let _ = tracer_for!(SCENE, stages = SCENE.needs().without(Stages::REFRACTION));
+    let _ = tracer_for!(SCENE, stages = SCENE.stages().without(Stages::REFRACTION));
     Ok(())
 }

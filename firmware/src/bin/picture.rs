@@ -14,7 +14,7 @@ static SCENE: Scene<'static> = include!(concat!(env!("OUT_DIR"), "/scene.rs"));
 /// What the scene needs, less what the build leaves out to see what it costs. A program that leaves nothing out says
 /// `tracer_for!(SCENE)`.
 const STAGES: Stages = SCENE
-    .needs()
+    .stages()
     .without(include!(concat!(env!("OUT_DIR"), "/without.rs")));
 
 fn program(row: &mut Row) -> Result<(), &'static str> {

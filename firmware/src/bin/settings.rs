@@ -11,10 +11,7 @@ use core::hint::black_box;
 
 use board::console;
 use embedded_graphics::{prelude::*, primitives::Rectangle};
-use scanray::{
-    Adaptive, Budget, CenterSample, Color, DisplayColor, Picture, PixelSource, Progressive,
-    Quantizer, Resolution, Scene, Supersampled, tracer_for,
-};
+use scanray::{render::{Adaptive, Budget, CenterSample, DisplayColor, PixelSource, Progressive, Quantizer, Supersampled}, tracer_for, Color, Picture, Resolution, Scene};
 
 /// How pixels come about.
 #[allow(dead_code, reason = "a build has one of them")]
@@ -86,7 +83,7 @@ fn program((centers, colors): &mut Memory) -> Result<(), &'static str> {
 /// What drawing takes in the display's colours.
 #[inline(always)]
 fn as_shown(source: impl PixelSource<Scalar = f32>, run: Run, colors: &mut [Color]) -> Option<u32> {
-    let picture = Picture::<_, scanray::Exact<Shown>>::new(source);
+    let picture = Picture::<_, scanray::render::Exact<Shown>>::new(source);
     if DITHERED {
         drawing(&picture.dithered(), run, colors)
     } else {

@@ -6,21 +6,21 @@ use std::process::ExitCode;
 
 use clap::Args;
 use embedded_graphics::pixelcolor::Rgb888;
-use scanray::{DEFAULT_MAX_DEPTH, Exact, Picture};
+use scanray::{DEFAULT_MAX_DEPTH, Picture, render::Exact};
 
 use crate::canvas::Canvas;
 use crate::console::{print, say};
-use crate::drawing::{Parts, Workers};
 use crate::failure::Failure;
 use crate::host_pixels::Drawing;
 use crate::host_tracer::HostTracer;
 use crate::image::{self, ImageFormat};
-use crate::output::Place;
-use crate::places::refuse_input_as_output;
+use crate::output_files::Place;
+use crate::output_paths::refuse_input_as_output;
+use crate::parallel_drawing::{Parts, Workers};
 use crate::pools::HostScalar;
 use crate::progress::Progress;
-use crate::scene_data;
 use crate::scene_file::SceneSource;
+use crate::scene_listing;
 
 /// Where the picture goes.
 const OUTPUT: &str = "output.ppm";
@@ -98,7 +98,7 @@ fn draw(source: &SceneSource) -> Result<(), Failure> {
     let scene = pools.as_scene();
     print(|out| {
         writeln!(out)?;
-        scene_data::write(out, &scene)?;
+        scene_listing::write(out, &scene)?;
         writeln!(out)
     })?;
     let output = Path::new(OUTPUT);

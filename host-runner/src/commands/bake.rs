@@ -9,9 +9,9 @@ use scanray::bake;
 
 use crate::console::{print, say};
 use crate::failure::Failure;
-use crate::options::ScalarName;
-use crate::output::Place;
-use crate::places::refuse_input_as_output;
+use crate::option_values::ScalarName;
+use crate::output_files::Place;
+use crate::output_paths::refuse_input_as_output;
 use crate::pools::HostScalar;
 use crate::scene_file::SceneSource;
 

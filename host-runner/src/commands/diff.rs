@@ -11,9 +11,9 @@ use crate::compare::{Comparison, DEFAULT_PIXELS_PER_DEGREE, flip_picture, level_
 use crate::console::{print, say};
 use crate::failure::Failure;
 use crate::image::{self, Image, ImageFormat};
-use crate::memory::require;
-use crate::options::whole;
-use crate::places::{refuse_input_as_output, single_place};
+use crate::option_values::whole;
+use crate::output_paths::{refuse_input_as_output, single_place};
+use crate::picture_memory::require;
 
 /// The command line.
 #[derive(Args, Debug)]

@@ -8,9 +8,9 @@ use scanray::DEFAULT_MAX_DEPTH;
 
 use crate::console::{print, say};
 use crate::failure::Failure;
-use crate::options::{ScalarName, Size, max_depth};
-use crate::output::Place;
-use crate::places::refuse_input_as_output;
+use crate::option_values::{ScalarName, Size, max_depth};
+use crate::output_files::Place;
+use crate::output_paths::refuse_input_as_output;
 use crate::pools::HostScalar;
 use crate::povray::PovScene;
 use crate::scene_file::SceneSource;

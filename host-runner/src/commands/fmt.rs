@@ -5,11 +5,11 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use crate::canonical::canonical;
+use crate::canonical_text::canonical;
 use crate::console::{print, say};
 use crate::failure::Failure;
-use crate::options::ScalarName;
-use crate::output::Place;
+use crate::option_values::ScalarName;
+use crate::output_files::Place;
 use crate::pools::HostScalar;
 use crate::scene_file::SceneSource;
 

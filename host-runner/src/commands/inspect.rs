@@ -7,10 +7,10 @@ use clap::Args;
 
 use crate::console::print;
 use crate::failure::Failure;
-use crate::options::ScalarName;
+use crate::option_values::ScalarName;
 use crate::pools::HostScalar;
-use crate::scene_data;
 use crate::scene_file::SceneSource;
+use crate::scene_listing;
 
 /// The command line.
 #[derive(Args, Debug)]
@@ -46,5 +46,5 @@ pub(crate) fn run(args: &InspectArgs) -> Result<ExitCode, Failure> {
 fn inspect<T: HostScalar>(scene: &SceneSource) -> Result<(), Failure> {
     let mut pools = T::pools();
     scene.load(&mut pools)?;
-    print(|out| scene_data::write(out, &pools.as_scene()))
+    print(|out| scene_listing::write(out, &pools.as_scene()))
 }

@@ -11,10 +11,10 @@ use clap::Args;
 use crate::console::say;
 use crate::failure::Failure;
 use crate::image::{self, Animation, Image, ImageFormat, require_gif_memory};
-use crate::options::centiseconds;
-use crate::output::{Place, Unwritten};
-use crate::part::PartRecord;
-use crate::places::{PictureFile, Steps, files, refuse_input_as_output, single_place};
+use crate::option_values::centiseconds;
+use crate::output_files::{Place, Unwritten};
+use crate::output_paths::{PictureFile, Steps, files, refuse_input_as_output, single_place};
+use crate::picture_part::PartRecord;
 use crate::progress::Progress;
 
 /// The command line.

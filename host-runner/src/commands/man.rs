@@ -9,7 +9,7 @@ use roff::{Roff, roman};
 
 use crate::console::{print, say};
 use crate::failure::Failure;
-use crate::output::Place;
+use crate::output_files::Place;
 
 /// The command line.
 #[derive(Args, Debug)]

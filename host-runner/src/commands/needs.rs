@@ -12,9 +12,9 @@ use crate::console::print;
 use crate::device_memory::DeviceMemory;
 use crate::displays;
 use crate::failure::Failure;
-use crate::options::{ColorName, ScalarName, name_of, with_color};
-use crate::picture_args::PictureArgs;
+use crate::option_values::{ColorName, ScalarName, name_of, with_color};
 use crate::pools::HostScalar;
+use crate::render_settings::PictureArgs;
 use crate::scene_file::SceneSource;
 
 /// The command line.
@@ -81,8 +81,8 @@ pub(crate) fn run(args: &NeedsArgs) -> Result<ExitCode, Failure> {
         return print(displays::write_list).map(|()| ExitCode::SUCCESS);
     }
     match args.picture.settings()?.scalar {
-        ScalarName::F32 => tell::<f32>(args, |scene| scene.needs())?,
-        ScalarName::F64 => tell::<f64>(args, |scene| scene.needs())?,
+        ScalarName::F32 => tell::<f32>(args, |scene| scene.stages())?,
+        ScalarName::F64 => tell::<f64>(args, |scene| scene.stages())?,
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -7,18 +7,18 @@ use std::str::FromStr;
 
 use clap::Args;
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
-use scanray::{DisplayColor, Picture, Resolution};
+use scanray::{Picture, Resolution, render::DisplayColor};
 
 use crate::console::print;
 use crate::displays;
 use crate::failure::Failure;
 use crate::host_tracer::HostTracer;
-use crate::options::{ScalarName, name_of, with_color};
-use crate::picture_args::{PictureArgs, PictureSettings};
+use crate::option_values::{ScalarName, name_of, with_color};
 use crate::pools::HostScalar;
 use crate::ray_tree::{
     Names, PixelHeader, PixelReport, RayTree, Samples, color_digits, write_rays,
 };
+use crate::render_settings::{PictureArgs, PictureSettings};
 use crate::scene_file::SceneSource;
 use crate::scene_lines::object_lines;
 

@@ -14,20 +14,20 @@ use embedded_graphics_simulator::sdl2::Keycode;
 use embedded_graphics_simulator::{
     OutputSettingsBuilder, SimulatorDisplay, SimulatorEvent, Window,
 };
-use scanray::{Picture, Quantizer, Resolution, Scene};
+use scanray::{Picture, Resolution, Scene, render::Quantizer};
 use sdl2::VideoSubsystem;
 
 use crate::console::{print, say};
 use crate::cost::{Core, MODEL};
 use crate::displays;
-use crate::drawing::Workers;
 use crate::failure::Failure;
 use crate::host_pixels::Drawing;
 use crate::host_tracer::HostTracer;
-use crate::memory::require;
-use crate::options::{ScalarName, with_color};
-use crate::picture_args::{PictureArgs, PictureSettings};
+use crate::option_values::{ScalarName, with_color};
+use crate::parallel_drawing::Workers;
+use crate::picture_memory::require;
 use crate::pools::HostScalar;
+use crate::render_settings::{PictureArgs, PictureSettings};
 use crate::scene_file::SceneSource;
 
 /// The command line.
@@ -170,7 +170,7 @@ fn show<T: HostScalar + Drawing>(
     let pixels = T::pixels(&tracer);
     let title = format!("scanray: {}", source.name());
     with_color!(settings.color, C => {
-        let picture = Picture::<_, scanray::Exact<C>>::new(&pixels);
+        let picture = Picture::<_, scanray::render::Exact<C>>::new(&pixels);
         if settings.dither {
             let picture = picture.dithered();
             animate(&title, resolution, args.scale, &times, |y| row(&picture, y))
@@ -181,12 +181,15 @@ fn show<T: HostScalar + Drawing>(
 }
 
 /// A row as the display shows it.
-fn row<P: scanray::PixelSource, Q: Quantizer<Color: scanray::DisplayColor + Into<Rgb888>>>(
+fn row<
+    P: scanray::render::PixelSource,
+    Q: Quantizer<Color: scanray::render::DisplayColor + Into<Rgb888>>,
+>(
     picture: &Picture<P, Q>,
     y: u16,
 ) -> Vec<Rgb888> {
     let black = scanray::Color::<f32>::BLACK;
-    let black = <Q::Color as scanray::DisplayColor>::from_linear(black, 0.5);
+    let black = <Q::Color as scanray::render::DisplayColor>::from_linear(black, 0.5);
     let mut row = vec![black; usize::from(picture.resolution().width)];
     picture.row(0, y, &mut row);
     row.into_iter().map(Into::into).collect()

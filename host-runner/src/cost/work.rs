@@ -4,10 +4,12 @@ use std::ops::{Add, Range};
 
 use rayon::prelude::*;
 use scanray::{
-    Color, LightAtHit, Meeting, Object, Observer, Ray, RayKind, Scalar, Scene, TestKind, Vec3,
+    Color, Ray, Scalar, Scene, Vec3,
+    shape::Object,
+    tracer::{Intersection, LightAtHit, Observer, RayKind, TestKind},
 };
 
-use crate::drawing::Workers;
+use crate::parallel_drawing::Workers;
 
 macro_rules! work {
     ($($(#[$doc:meta])* $name:ident,)*) => {
@@ -76,8 +78,8 @@ work! {
     /// Tests against spheres that the ray's line crosses: they take a root.
     sphere_crossings,
     /// Tests against triangles whose bounding ball the ray's line crosses: they take the exact test.
-    ball_crossings,
-    /// Rays that meet a sphere first, shadow rays left out.
+    bounds_crossings,
+    /// Rays that hit a sphere first, shadow rays left out.
     sphere_hits,
     /// The same for planes.
     plane_hits,
@@ -89,7 +91,7 @@ work! {
     bending_hits,
     /// Hits on materials of an ambient colour that is not grey.
     colored_hits,
-    /// Rays that meet nothing but the sky, shadow rays left out.
+    /// Rays that hit nothing but the sky, shadow rays left out.
     sky_rays,
     /// Lights that stand behind the surface of a hit.
     lights_behind,
@@ -101,7 +103,7 @@ work! {
     lit_glossy,
     /// Lights that show a highlight.
     highlights,
-    /// Objects that are looked at for a row of samples: whether its rays can meet them.
+    /// Objects that are looked at for a row of samples: whether its rays can hit them.
     row_checks,
     /// Rays, shadow rays left out, of a scene with planes: they pass code that is larger.
     rays_among_planes,
@@ -110,9 +112,9 @@ work! {
     /// Shadow rays of such a scene.
     shadow_rays_among_triangles,
     /// Rays, shadow rays left out, that walk a tree.
-    tree_rays,
+    bvh_rays,
     /// Shadow rays that walk a tree.
-    tree_shadow_rays,
+    bvh_shadow_rays,
     /// Samples that are added up.
     added_samples,
     /// Pixels that are compared with their neighbours.
@@ -136,7 +138,7 @@ pub struct Circumstances {
     pub scanlines: u64,
     /// Spheres, planes and triangles of the scene.
     pub objects: [u64; 3],
-    /// Whether rays that meet nothing see a gradient.
+    /// Whether rays that hit nothing see a gradient.
     pub has_sky: bool,
     /// Whether there are secondary rays, if the depth allows it.
     pub has_branches: bool,
@@ -213,7 +215,7 @@ impl Work {
         } = *circumstances;
         let rays = self.primary_rays + self.reflected_rays + self.refracted_rays;
         let hits = self.sphere_hits + self.plane_hits + self.triangle_hits;
-        let has_tree = self.box_tests > 0;
+        let has_bvh = self.box_tests > 0;
         let [spheres, planes, triangles] = objects;
         let has_triangles = triangles > 0;
         let if_so = |so: bool, count: u64| if so { count } else { 0 };
@@ -226,10 +228,10 @@ impl Work {
             sky_rays: if_so(has_sky, rays.saturating_sub(hits)),
             row_checks: scanlines * objects.iter().sum::<u64>(),
             rays_among_planes: if_so(planes > 0, rays),
-            rays_among_triangles: if_so(has_triangles && !has_tree, rays),
-            shadow_rays_among_triangles: if_so(has_triangles && !has_tree, self.shadow_rays),
-            tree_rays: if_so(has_tree, rays),
-            tree_shadow_rays: if_so(has_tree, self.shadow_rays),
+            rays_among_triangles: if_so(has_triangles && !has_bvh, rays),
+            shadow_rays_among_triangles: if_so(has_triangles && !has_bvh, self.shadow_rays),
+            bvh_rays: if_so(has_bvh, rays),
+            bvh_shadow_rays: if_so(has_bvh, self.shadow_rays),
             added_samples: if_so(samples > 1, self.primary_rays),
             compared_pixels: if_so(is_adaptive, self.pixels),
             compared_rays: if_so(is_adaptive, rays),
@@ -264,7 +266,7 @@ impl Work {
 #[derive(Debug)]
 pub struct Counter<T> {
     work: Work,
-    /// The ray under way, shadow rays aside: the distance of the closest meeting so far, and its shape.
+    /// The ray under way, shadow rays aside: the distance of the closest intersection so far, and its shape.
     closest: Option<(T, Shape)>,
     /// What of the material of the hit under way decides about the cost of light.
     lighting: Lighting,
@@ -328,7 +330,7 @@ impl<T: Scalar> Observer<T> for Counter<T> {
         let (shape, t) = match object {
             Object::Sphere(sphere) => {
                 work.sphere_tests += 1;
-                work.exact_sphere_tests += u64::from(!sphere.clearly_misses(ray));
+                work.exact_sphere_tests += u64::from(!sphere.quick_reject(ray));
                 let crosses = crosses(ray, sphere.center(), sphere.radius_squared());
                 work.sphere_crossings += u64::from(crosses);
                 (Shape::Sphere, sphere.intersect(ray, t_max))
@@ -344,9 +346,10 @@ impl<T: Scalar> Observer<T> for Counter<T> {
             }
             Object::Triangle(triangle) => {
                 work.triangle_tests += 1;
-                work.exact_ball_tests += u64::from(!triangle.clearly_misses(ray));
-                let (center, squared) = (triangle.ball_center(), triangle.ball_radius_squared());
-                work.ball_crossings += u64::from(crosses(ray, center, squared));
+                work.exact_ball_tests += u64::from(!triangle.quick_reject(ray));
+                let (center, squared) =
+                    (triangle.bounds_center(), triangle.bounds_radius_squared());
+                work.bounds_crossings += u64::from(crosses(ray, center, squared));
                 let t = triangle.intersect(ray, t_max).map(|(t, _)| t);
                 (Shape::Triangle, t)
             }
@@ -360,8 +363,8 @@ impl<T: Scalar> Observer<T> for Counter<T> {
         }
     }
 
-    fn meeting(&mut self, meeting: &Meeting<'_, T>) {
-        let material = meeting.material;
+    fn intersection(&mut self, intersection: &Intersection<'_, T>) {
+        let material = intersection.material;
         let bends = material.refraction > T::ZERO && material.index_of_refraction != T::ONE;
         self.work.bending_hits += u64::from(bends);
         self.work.colored_hits += u64::from(!is_grey(material.ambient));
@@ -370,7 +373,7 @@ impl<T: Scalar> Observer<T> for Counter<T> {
             is_glossy: !is_black(material.specular),
         };
         if !matches!(self.closest, Some((_, Shape::Sphere))) {
-            self.work.slanted_hits += u64::from(!is_along_an_axis(meeting.normal));
+            self.work.slanted_hits += u64::from(!is_along_an_axis(intersection.normal));
         }
         match self.closest {
             Some((_, Shape::Sphere)) => self.work.sphere_hits += 1,

@@ -7,7 +7,11 @@ use std::collections::VecDeque;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use scanray::{Color, PixelSource, Resolution, Scalar, Subpixel, differ};
+use scanray::{
+    Color, Resolution, Scalar,
+    camera::Subpixel,
+    render::{PixelSource, differ},
+};
 
 use crate::host_tracer::{HostTracer, MAX_DEPTH, SampleRow};
 use crate::knobs::Knobs;
@@ -96,7 +100,7 @@ impl<'a, T: Scalar> HostPixels<'a, T> {
         row
     }
 
-    /// Row `y` with more samples in the pixels that differ from a neighbour: [`scanray::Adaptive`].
+    /// Row `y` with more samples in the pixels that differ from a neighbour: [`scanray::render::Adaptive`].
     fn edges_refined(&self, y: u16, threshold: T) -> Vec<Color<T>> {
         let Resolution { height, .. } = self.resolution;
         let centers = |y: u16| {
@@ -139,7 +143,7 @@ impl<'a, T: Scalar> HostPixels<'a, T> {
         row
     }
 
-    /// The means of the samples of pixels, as [`scanray::Supersampled`] has them.
+    /// The means of the samples of pixels, as [`scanray::render::Supersampled`] has them.
     fn means(&self, x: u16, y: u16, step: u16, count: usize) -> Vec<Color<T>> {
         let mut sums = vec![Color::BLACK; count];
         if let [at] = self.knobs.samples.pattern() {

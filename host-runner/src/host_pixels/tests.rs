@@ -7,14 +7,19 @@ use embedded_graphics::framebuffer::{Framebuffer, buffer_size};
 use embedded_graphics::pixelcolor::Rgb888;
 use embedded_graphics::pixelcolor::raw::{BigEndian, RawU24};
 use scanray::{
-    Adaptive, Budget, CenterSample, Color, Exact, FromDecimal, Picture, PixelSource, Progress,
-    Progressive, Resolution, SampleSource, Scalar, ScenePools, Supersampled, Tracer, WorkCount,
+    Color, Picture, Resolution, Scalar, ScenePools, Tracer,
+    parser::FromDecimal,
+    render::{
+        Adaptive, Budget, CenterSample, Exact, PixelSource, Progress, Progressive, SampleSource,
+        Supersampled,
+    },
+    tracer::WorkCount,
 };
 
 use super::{Drawing, HostPixels};
-use crate::drawing::Workers;
 use crate::host_tracer::HostTracer;
 use crate::knobs::{Detail, Knobs, SampleCount};
+use crate::parallel_drawing::Workers;
 
 const SIZE: Resolution = Resolution {
     width: 21,

@@ -7,7 +7,7 @@ use std::io::{self, Write};
 use color_quant::NeuQuant;
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 
-use crate::memory::{Shortage, require, room};
+use crate::picture_memory::{Shortage, require, room};
 
 /// Colours of a palette.
 const PALETTE: usize = 256;

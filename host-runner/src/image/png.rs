@@ -5,7 +5,7 @@ use std::io::{self, Cursor, Write};
 use png::{BitDepth, ColorType, Decoder, Encoder, Transformations};
 
 use super::{Image, SMALLER};
-use crate::memory::room;
+use crate::picture_memory::room;
 
 /// The keyword of a text chunk.
 const COMMENT: &str = "Comment";

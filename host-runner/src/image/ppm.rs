@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::{Image, SMALLER};
-use crate::memory::room;
+use crate::picture_memory::room;
 
 pub(super) fn write(
     file: &mut dyn Write,

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use fearless_simd::prelude::*;
 
+use super::bvh::PendingParts;
 use super::lanes::{Colors, InLanes, Indices, LANES, Mask, Numbers, Rays, Three, clamp};
-use super::tree::WaitingParts;
 
 /// Rays that a batch holds.
 pub(super) const CAPACITY: usize = 512;
@@ -17,7 +17,7 @@ pub(super) const MOST_LIGHTS: usize = 32;
 /// them.
 type Column<E> = Box<[E; CAPACITY + LANES]>;
 
-/// Nothing is met.
+/// Nothing is hit.
 pub(super) const NOTHING: u32 = u32::MAX >> 1;
 
 /// The side that primary rays leave: `Side::NOWHERE`.
@@ -115,7 +115,7 @@ impl Lanes {
     }
 }
 
-/// The rays that meet one object: a range of [`Batch::order`].
+/// The rays that hit one object: a range of [`Batch::order`].
 #[derive(Clone, Debug)]
 pub(super) struct Group {
     pub(super) object: u32,
@@ -134,22 +134,22 @@ pub(super) struct Batch {
     parent: Column<u32>,
     /// What the ray's colour is multiplied with there.
     weight: Column<f32>,
-    /// The object it meets, or [`NOTHING`].
+    /// The object it hits, or [`NOTHING`].
     pub(super) object: Column<u32>,
     pub(super) t: Column<f32>,
     pub(super) place: [Column<f32>; 2],
     pub(super) color: Columns,
-    /// In a scene with a tree, where shadow rays start from what it meets, and the normal there; no normal for no
+    /// In a scene with a hierarchy, where shadow rays start from what it hits, and the normal there; no normal for no
     /// rays.
     pub(super) outside: Columns,
     pub(super) normal: Columns,
     /// Which lights reach it: a bit for each.
     pub(super) lit: Column<u32>,
-    /// The rays that meet something, object by object.
+    /// The rays that hit something, object by object.
     order: Column<u32>,
     pub(super) groups: Vec<Group>,
-    /// For single rays in a scene with a tree.
-    pub(super) waiting: WaitingParts,
+    /// For single rays in a scene with a hierarchy.
+    pub(super) pending: PendingParts,
 }
 
 impl Batch {
@@ -170,7 +170,7 @@ impl Batch {
             lit: column(),
             order: column(),
             groups: Vec::new(),
-            waiting: WaitingParts::new(),
+            pending: PendingParts::new(),
         }
     }
 
@@ -211,11 +211,11 @@ impl Batch {
         self.len += count;
     }
 
-    /// Sorts the rays by the object they meet. `counts` holds a 0 for each object, before and after.
+    /// Sorts the rays by the object they hit. `counts` holds a 0 for each object, before and after.
     pub(super) fn group(&mut self, counts: &mut [u32]) {
         self.groups.clear();
         let objects = &self.object[..self.len];
-        // Neighbours often meet the same object.
+        // Neighbours often hit the same object.
         for run in objects.chunk_by(|a, b| a == b) {
             if let Some(count) = counts.get_mut(run[0] as usize) {
                 if *count == 0 {
@@ -297,7 +297,7 @@ impl Batch {
         Indices::simd_from(simd, lit).simd_eq(1)
     }
 
-    /// Lets rays meet nothing.
+    /// Lets rays hit nothing.
     pub(super) fn forget(&mut self, lanes: &Lanes) {
         for ray in &lanes.rays[..lanes.count] {
             self.object[*ray as usize] = NOTHING;

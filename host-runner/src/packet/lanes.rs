@@ -12,7 +12,7 @@ use std::ops::{Add, Div, Index, Mul, Neg, Sub};
 
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, mask32x8, u32x8};
-use scanray::{Color, Number, Scalar, Vec3, formula};
+use scanray::{Color, Scalar, Vec3, formula, number::Number};
 
 /// Rays that are traced together.
 pub(super) const LANES: usize = 8;

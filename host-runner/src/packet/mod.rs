@@ -9,18 +9,18 @@
 //!
 //! A lane has the bits of the core, because it calls the core's own [formulas](scanray::formula), a lane does not know
 //! of its neighbours, and the rays of a vector leave the same side, so that they are tested against the core's own
-//! candidates. In a scene with a tree all objects are candidates and the rays of a vector are neighbours that
-//! may leave any sides ([`tree`]). What decides between formulas as which function of the core does is named beside it.
+//! candidates. In a scene with a hierarchy all objects are candidates and the rays of a vector are neighbours that
+//! may leave any sides ([`bvh`]). What decides between formulas as which function of the core does is named beside it.
 //!
 //! A new shape has its functions in a file of [`shapes`] and stands in the list there.
 
 mod batch;
+mod bvh;
 mod lanes;
 mod shade;
 mod shapes;
 #[cfg(test)]
 mod tests;
-mod tree;
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -28,17 +28,18 @@ use fearless_simd::Level;
 use fearless_simd::prelude::*;
 use scanray::accel::Candidates;
 use scanray::formula::{camera, shading};
-use scanray::shape::Surface;
+use scanray::shape::ObjectInfo;
 use scanray::{
-    Background, Color, Material, Object, ObjectSet, Resolution, Scanline, Side, Stages, Tracer,
+    Background, Color, Material, Resolution, Stages, Tracer, accel::ObjectSet, ray::Side,
+    shape::Object, tracer::Scanline,
 };
 
 use crate::host_tracer::SampleRow;
 
 use batch::{Batch, CAPACITY, MOST_LIGHTS, NOTHING, NOWHERE};
+use bvh::PacketBvh;
 use lanes::{Colors, InLanes, Indices, LANES, Mask, Numbers, Rays, Vec3s};
-use shapes::{Meeting, Shapes};
-use tree::PacketTree;
+use shapes::{Intersection, Shapes};
 
 /// Traces eight rays at a time through a scene, which it has made lists of.
 #[derive(Debug)]
@@ -51,7 +52,7 @@ pub(crate) struct PacketTracer<'a, const STACK: usize> {
     /// All shapes of the scene have lanes; otherwise the core draws it.
     is_complete: bool,
     /// Of a large scene.
-    tree: Option<PacketTree<'a>>,
+    bvh: Option<PacketBvh<'a>>,
     /// Of threads that do not trace at the moment.
     idle: Mutex<Vec<Workspace>>,
 }
@@ -73,7 +74,7 @@ struct Target<'a> {
     casts_shadow: bool,
     /// Of its front and its back.
     reach: [&'a Candidates; 2],
-    /// What rays can meet that leave them in any direction: those of a vector have several.
+    /// What rays can hit that leave them in any direction: those of a vector have several.
     near: [ObjectSet; 2],
 }
 
@@ -83,7 +84,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
         tracer: Tracer<'a, f32, { Stages::ALL.union(Stages::BVH).bits() }, STACK>,
     ) -> Self {
         let scene = *tracer.scene();
-        let material = |surface: Surface| scene.materials().get(surface.material as usize);
+        let material = |surface: ObjectInfo| scene.materials().get(surface.material as usize);
         let reach = |side: Side| {
             scene
                 .accel()
@@ -97,12 +98,12 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
             shapes: Shapes::default(),
             objects: Vec::with_capacity(scene.object_count()),
             is_complete: true,
-            tree: None,
+            bvh: None,
             idle: Mutex::default(),
         };
         let objects = (0..scene.object_count()).filter_map(|index| scene.object(index));
         for (index, object) in (0..).zip(objects) {
-            let material = material(object.surface());
+            let material = material(object.info());
             let casts_shadow = material.is_none_or(Material::casts_shadow);
             packets.is_complete &= packets.shapes.add(object, index, casts_shadow);
             let sides = [true, false].map(|front| reach(Side::new(index, front)));
@@ -115,7 +116,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
             });
         }
         if packets.is_complete {
-            packets.tree = PacketTree::new(&packets, tree::FEWEST_FOR_SINGLES);
+            packets.bvh = PacketBvh::new(&packets, bvh::FEWEST_FOR_SINGLES);
         }
         packets
     }
@@ -123,9 +124,9 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
     /// The linear colours at a place in pixels of a row: those of `Tracer::sample_observed`.
     pub(crate) fn sample_row(&self, places: SampleRow, colors: &mut [Color]) {
         let scene = self.tracer.scene();
-        let is_tree_missing = scene.accel().bvh().is_some()
-            && (self.tree.is_none() || scene.lights().len() > MOST_LIGHTS);
-        if !self.is_complete || is_tree_missing {
+        let is_bvh_missing = scene.accel().bvh().is_some()
+            && (self.bvh.is_none() || scene.lights().len() > MOST_LIGHTS);
+        if !self.is_complete || is_bvh_missing {
             return self.row_by_core(places, colors);
         }
         #[cfg(target_arch = "x86_64")]
@@ -203,7 +204,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
             let direction = camera::direction(
                 column,
                 Numbers::splat(simd, (i32::from(height) * of) as f32),
-                Numbers::splat(simd, scanline.row_height()),
+                Numbers::splat(simd, scanline.image_plane_y()),
             );
             batch.origin.store(at, origin);
             batch.direction.store(at, direction);
@@ -234,21 +235,21 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
                 };
                 let mut at = 0;
                 while at < batch.len {
-                    at += match &self.tree {
-                        Some(tree) if tree.has_singles() => {
-                            self.meet_by_tree::<S, true>(simd, tree, batch, at)
+                    at += match &self.bvh {
+                        Some(bvh) if bvh.has_singles() => {
+                            self.hit_by_bvh::<S, true>(simd, bvh, batch, at)
                         }
-                        Some(tree) => self.meet_by_tree::<S, false>(simd, tree, batch, at),
-                        None => self.meet(simd, batch, at, visible),
+                        Some(bvh) => self.hit_by_bvh::<S, false>(simd, bvh, batch, at),
+                        None => self.hit(simd, batch, at, visible),
                     };
                 }
                 batch.group(counts);
                 let groups = std::mem::take(&mut batch.groups);
-                if let Some(tree) = &self.tree {
-                    if tree.has_singles() {
-                        self.cast_shadows::<S, true>(simd, tree, batch, &groups);
+                if let Some(bvh) = &self.bvh {
+                    if bvh.has_singles() {
+                        self.cast_shadows::<S, true>(simd, bvh, batch, &groups);
                     } else {
-                        self.cast_shadows::<S, false>(simd, tree, batch, &groups);
+                        self.cast_shadows::<S, false>(simd, bvh, batch, &groups);
                     }
                 }
                 for group in &groups {
@@ -277,7 +278,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
 
     /// Finds the nearest hits of the next rays of a batch that leave the same side, up to eight, and the
     /// colours of those without; returns their number. `Tracer::closest` and `Tracer::background`.
-    fn meet<S: Simd>(&self, simd: S, batch: &mut Batch, at: usize, visible: ObjectSet) -> usize {
+    fn hit<S: Simd>(&self, simd: S, batch: &mut Batch, at: usize, visible: ObjectSet) -> usize {
         simd.vectorize(
             #[inline(always)]
             || {
@@ -292,7 +293,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
                 };
                 let mut closest = Closest::none(simd);
                 self.shapes
-                    .meet(simd, &rays, leaves >> 1, candidates, &mut closest);
+                    .hit(simd, &rays, leaves >> 1, candidates, &mut closest);
                 self.keep(simd, &closest, rays.direction, batch, at);
                 let sides = &batch.leaves[at..batch.len.min(at + LANES)];
                 sides.iter().take_while(|side| **side == leaves).count()
@@ -300,7 +301,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
         )
     }
 
-    /// Puts the nearest hits of eight rays into a batch, and the colours of those that met nothing.
+    /// Puts the nearest hits of eight rays into a batch, and the colours of those that hit nothing.
     #[inline(always)]
     fn keep<S: Simd>(
         &self,
@@ -335,7 +336,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
     }
 }
 
-/// The closest meeting of each ray so far. `Closest` of the core.
+/// The closest intersection of each ray so far. `Closest` of the core.
 #[derive(Clone, Copy)]
 struct Closest<S: Simd> {
     t: Numbers<S>,
@@ -353,16 +354,16 @@ impl<S: Simd> Closest<S> {
         }
     }
 
-    /// Takes the meetings with an object that come first. `Closest::offer` of the core.
+    /// Takes the intersections with an object that come first. `Closest::offer` of the core.
     #[inline(always)]
-    fn offer(&mut self, simd: S, meeting: &Meeting<S>, object: u32) {
-        let t = meeting.t;
+    fn offer(&mut self, simd: S, intersection: &Intersection<S>, object: u32) {
+        let t = intersection.t;
         let first = Indices::splat(simd, object).simd_lt(self.object);
         let closer = t.simd_lt(self.t) | (t.simd_eq(self.t) & first);
-        let closer: Mask<S> = meeting.lanes & t.simd_gt(0.0) & closer;
+        let closer: Mask<S> = intersection.lanes & t.simd_gt(0.0) & closer;
         self.t = Numbers::select(closer, t, self.t);
         self.object = closer.select(Indices::splat(simd, object), self.object);
-        if let Some([v2, v3]) = meeting.place {
+        if let Some([v2, v3]) = intersection.place {
             self.place = [
                 Numbers::select(closer, v2, self.place[0]),
                 Numbers::select(closer, v3, self.place[1]),

@@ -2,13 +2,13 @@
 
 use fearless_simd::prelude::*;
 use scanray::formula::{optics, shading};
-use scanray::{Light, Material, Number, ObjectSet};
+use scanray::{Light, Material, accel::ObjectSet, number::Number};
 
 use super::batch::{Batch, Lanes};
 use super::lanes::{Colors, InLanes, Indices, LANES, Mask, Numbers, Rays, Vec3s, first_lanes};
 use super::{PacketTracer, Target, shapes};
 
-/// Meetings with the surface of one object, ready for shading. `Hit` of the core.
+/// Intersections with the surface of one object, ready for shading. `Hit` of the core.
 #[derive(Clone, Copy)]
 pub(super) struct Hits<S: Simd> {
     /// Unit normal on the side the ray comes from.
@@ -119,7 +119,7 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                 continue;
             }
             let (shadow, distance, cosine) = toward.shadow(hits.outside);
-            if self.tree.is_some() {
+            if self.bvh.is_some() {
                 // `cast_shadows` has found it out.
                 lit &= batch.lit(simd, of, number);
             } else {
@@ -159,7 +159,7 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
         color
     }
 
-    /// The lanes whose rays, which leave the object `leaves`, meet an object that casts a shadow before
+    /// The lanes whose rays, which leave the object `leaves`, hit an object that casts a shadow before
     /// `t_max`; only those of a mask matter. `Tracer::occluded`.
     fn occluded<S: Simd>(
         &self,

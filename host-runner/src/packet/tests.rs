@@ -4,14 +4,14 @@ use std::cell::Cell;
 use std::path::PathBuf;
 
 use fearless_simd::Level;
-use scanray::shape::{Sphere, Surface};
+use scanray::shape::{ObjectInfo, Sphere};
 use scanray::{
     Background, Camera, Color, Light, Material, MaterialDescription, Resolution, Scene, SceneError,
-    ScenePools, Subpixel, Supersampled, Tracer, Vec3,
+    ScenePools, Tracer, Vec3, camera::Subpixel, render::Supersampled,
 };
 
 use super::PacketTracer;
-use super::tree::PacketTree;
+use super::bvh::PacketBvh;
 use crate::host_tracer::SampleRow;
 
 type Pools = ScenePools<f32, 64, 64, 64, 192, 4, 192, 128>;
@@ -89,9 +89,9 @@ pub(super) fn assert_same_as(
             }
         };
         compare(&packets);
-        let singles = PacketTree::new(&packets, 0);
-        if singles.as_ref().is_some_and(PacketTree::has_singles) {
-            packets.tree = singles;
+        let singles = PacketBvh::new(&packets, 0);
+        if singles.as_ref().is_some_and(PacketBvh::has_singles) {
+            packets.bvh = singles;
             compare(&packets);
         }
     }
@@ -233,29 +233,32 @@ fn draws_random_scenes_to_the_bit() {
 }
 
 #[test]
-fn draws_random_scenes_with_a_tree_to_the_bit() {
+fn draws_random_scenes_with_a_bvh_to_the_bit() {
     let scenes = if cfg!(debug_assertions) { 100 } else { 2000 };
-    let mut trees = 0;
+    let mut hierarchies = 0;
     for seed in 0..scenes {
         let random = Random::new(1_000_000 + seed);
         let mut pools = Box::new(Pools::new());
         random.fill(&mut pools);
         random.crowd(&mut pools);
         pools.prepare();
-        trees += u64::from(pools.as_scene().accel().bvh().is_some());
+        hierarchies += u64::from(pools.as_scene().accel().bvh().is_some());
         let (width, height) = (1 + random.below(40), 1 + random.below(9));
         let max_depth = random.pick(&[0, 1, 3]);
         let name = format!("random crowd of seed {seed}");
         let (width, height) = (width as u16, height as u16);
         assert_same(&name, pools.as_scene(), width, height, max_depth);
     }
-    assert!(trees > scenes / 2, "only {trees} of {scenes} have a tree");
+    assert!(
+        hierarchies > scenes / 2,
+        "only {hierarchies} of {scenes} have a bvh"
+    );
 }
 
 #[test]
 fn draws_objects_without_material_and_with_any_numbers() {
     let sphere = |x, material, number| {
-        Sphere::new(Vec3::new(x, 0.0, 3.0), 1.0, Surface { material, number }).unwrap()
+        Sphere::new(Vec3::new(x, 0.0, 3.0), 1.0, ObjectInfo { material, number }).unwrap()
     };
     let spheres = [
         sphere(-1.0, 0, 5),
@@ -309,12 +312,12 @@ fn draws_more_rays_of_a_depth_than_a_batch_holds() {
             .add_sphere(center, radius, glass(radius / 4.0))
             .unwrap();
     }
-    assert_same("glass balls", pools.as_scene(), 1201, 2, 6);
+    assert_same("glass spheres", pools.as_scene(), 1201, 2, 6);
 }
 
 #[test]
 fn the_first_of_coincident_objects_of_any_shapes_wins() {
-    // Along the axis of the camera each of them is met at exactly 2.
+    // Along the axis of the camera each of them is hit at exactly 2.
     let orders = [
         [0, 1, 2],
         [0, 2, 1],

@@ -1,6 +1,10 @@
 //! The tree of rays for programs.
 
-use scanray::{Color, LightAtHit, ObjectNumber, Ray, RayKind, Scalar, Vec3};
+use scanray::{
+    Color, Ray, Scalar, Vec3,
+    ray::ObjectNumber,
+    tracer::{LightAtHit, RayKind},
+};
 use serde::{Serialize, Serializer};
 
 use super::text::Names;

@@ -1,4 +1,4 @@
-//! The rays of a pixel and what they met, as the tracer tells an observer.
+//! The rays of a pixel and what they hit, as the tracer tells an observer.
 
 mod json;
 mod text;
@@ -7,11 +7,13 @@ pub(crate) use json::{PixelHeader, PixelReport, Samples};
 pub(crate) use text::{Names, color_digits, write_rays};
 
 use scanray::{
-    Color, LightAtHit, Material, MaterialDescription, Meeting, Object, ObjectNumber, Observer, Ray,
-    RayKind, Scalar, Vec3,
+    Color, Material, MaterialDescription, Ray, Scalar, Vec3,
+    ray::ObjectNumber,
+    shape::Object,
+    tracer::{Intersection, LightAtHit, Observer, RayKind},
 };
 
-/// A ray, what it met and the colour it sees.
+/// A ray, what it hit and the colour it sees.
 #[derive(Clone, Debug)]
 pub(crate) struct RayNode<T> {
     kind: RayKind,
@@ -25,11 +27,11 @@ pub(crate) struct RayNode<T> {
     result: Color<T>,
 }
 
-/// A meeting with an object.
+/// An intersection with an object.
 #[derive(Clone, Debug)]
 struct HitNode<T> {
     object: ObjectNumber,
-    /// The ray meets the side that the geometric normal points to.
+    /// The ray hits the side that the geometric normal points to.
     front: bool,
     /// Distance along the ray.
     t: T,
@@ -112,18 +114,18 @@ impl<T: Scalar> Observer<T> for RayTree<T> {
     }
 
     fn test_object(&mut self, object: Object<'_, T>, _: &Ray<T>, _: T) {
-        self.tested = Some(object.surface().number);
+        self.tested = Some(object.info().number);
     }
 
-    fn meeting(&mut self, meeting: &Meeting<'_, T>) {
+    fn intersection(&mut self, intersection: &Intersection<'_, T>) {
         if let Some(node) = self.open.last_mut() {
             node.hit = Some(HitNode {
-                object: meeting.number,
-                front: meeting.side.is_front(),
-                t: meeting.t,
-                point: meeting.point,
-                normal: meeting.normal,
-                material: *meeting.material,
+                object: intersection.number,
+                front: intersection.side.is_front(),
+                t: intersection.t,
+                point: intersection.point,
+                normal: intersection.normal,
+                material: *intersection.material,
                 lights: Vec::new(),
                 local: Color::BLACK,
                 secondary: Vec::new(),
@@ -136,7 +138,7 @@ impl<T: Scalar> Observer<T> for RayTree<T> {
         let tested = self.tested;
         if let Some(hit) = self.hit() {
             let blocker = match light {
-                // The shadow ray ends with the test of what it meets.
+                // The shadow ray ends with the test of what it hits.
                 LightAtHit::Blocked => tested,
                 LightAtHit::Enclosed => Some(hit.object),
                 LightAtHit::Behind | LightAtHit::Reaches { .. } => None,
@@ -244,7 +246,7 @@ mod tests {
         };
         let objects: Vec<_> = scene.objects().collect();
         let object = objects[hit.object as usize];
-        assert_eq!(scene.material(object.surface()), hit.material);
+        assert_eq!(scene.material(object.info()), hit.material);
         assert!(!(hit.normal.dot(node.ray.direction) > T::ZERO));
         let off = hit.point - node.ray.at(hit.t);
         let length = hit.point.abs().max_component() + hit.t;

@@ -3,7 +3,11 @@
 use std::fmt::{self, Display};
 use std::io::{self, Write};
 
-use scanray::{Color, LightAtHit, ObjectNumber, RayKind, Scalar, Scene, Vec3};
+use scanray::{
+    Color, Scalar, Scene, Vec3,
+    ray::ObjectNumber,
+    tracer::{LightAtHit, RayKind},
+};
 
 use super::{HitNode, LightNode, RayNode};
 
@@ -23,7 +27,7 @@ impl<T: Scalar> Names<'_, T> {
     pub(super) fn kind(&self, number: ObjectNumber) -> &'static str {
         let mut objects = self.scene.objects();
         objects
-            .find(|object| object.surface().number == number)
+            .find(|object| object.info().number == number)
             .map_or("object", |object| object.kind().name())
     }
 
@@ -78,7 +82,7 @@ pub(crate) fn write_rays<T: Scalar>(
         } else {
             "nothing: the background"
         };
-        line("meets", &what)?;
+        line("hits", &what)?;
         return line("result", &color_digits(node.result));
     };
     let side = match (hit.front, names.kind(hit.object)) {
@@ -88,7 +92,7 @@ pub(crate) fn write_rays<T: Scalar>(
         (false, _) => "on its back",
     };
     line(
-        "meets",
+        "hits",
         &format_args!(
             "{}, {side}, at t = {}",
             names.object(hit.object),

@@ -1,6 +1,6 @@
 //! The axis that a scene turns about, if none is given.
 
-use scanray::{Object, Scalar, Scene, Tracer};
+use scanray::{Scalar, Scene, Tracer, shape::Object};
 
 use super::{Axis, crossings};
 

@@ -14,8 +14,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use scanray::shape::{Shape, Transform};
 use scanray::{
-    Background, Camera, Light, MaterialDescription, PoolsMut, Resolution, Scalar, Scene,
-    SceneError, Vec3,
+    Background, Camera, Light, MaterialDescription, Resolution, Scalar, Scene, SceneError, Vec3,
+    pools::PoolsMut,
 };
 
 pub(crate) use axis::default_axis;
@@ -54,7 +54,7 @@ impl<T: Scalar> Turntable<T> {
             lights: scene.lights().to_vec(),
             objects: scene
                 .objects()
-                .map(|object| (object.shape(), scene.material(object.surface())))
+                .map(|object| (object.shape(), scene.material(object.info())))
                 .collect(),
         }
     }

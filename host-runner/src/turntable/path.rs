@@ -1,7 +1,7 @@
 //! What the camera meets on its way around a scene.
 
 use scanray::shape::Transform;
-use scanray::{ObjectNumber, Ray, Scalar, Scene, Tracer};
+use scanray::{Ray, Scalar, Scene, Tracer, ray::ObjectNumber};
 
 use super::{Axis, Turn};
 
@@ -40,7 +40,7 @@ pub(crate) fn crossings<T: Scalar>(scene: Scene<'_, T>, steps: u16, axis: Axis) 
         {
             let crossing = Crossing {
                 step: (chord / u32::from(chords_a_step)) as u16,
-                object: nearest.object.surface().number,
+                object: nearest.object.info().number,
             };
             if !crossings.contains(&crossing) {
                 crossings.push(crossing);

@@ -49,7 +49,7 @@ fn the_seed_alone_decides() {
 }
 
 #[test]
-fn is_drawn_by_its_tree_with_both_scalars() {
+fn is_drawn_by_its_bvh_with_both_scalars() {
     let folder = Folder::new();
     folder.succeed(&["generate", "spheres", "--count", "300", "-o", "many.txt"]);
     for scalar in ["f32", "f64"] {

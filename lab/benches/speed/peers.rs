@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use scanray::{Object, Scene, Vec3};
+use scanray::{Scene, Vec3, shape::Object};
 
 use crate::run::{is_installed, temporary};
 
@@ -136,7 +136,7 @@ fn tachyon_scene(scene: &Scene<'_>) -> String {
         }
         let material = scene
             .materials()
-            .get(object.surface().material as usize)
+            .get(object.info().material as usize)
             .map(|material| *material.description())
             .unwrap_or_default();
         let color = material.diffuse;

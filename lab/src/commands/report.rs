@@ -10,10 +10,10 @@ use scanray::Resolution;
 use crate::cost::{Core, Counted, Emulator, Job};
 use crate::report::{self, BothScalars, Document, Emulation, SceneReport, Sweep};
 use scanray_host::console::say;
-use scanray_host::drawing::Workers;
 use scanray_host::failure::Failure;
-use scanray_host::options::{Size, whole};
-use scanray_host::output::Place;
+use scanray_host::option_values::{Size, whole};
+use scanray_host::output_files::Place;
+use scanray_host::parallel_drawing::Workers;
 use scanray_host::progress::Progress;
 use scanray_host::scene_file::SceneSource;
 
@@ -91,7 +91,7 @@ impl Kind {
 
 impl std::fmt::Display for Kind {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&scanray_host::options::name_of(*self))
+        f.write_str(&scanray_host::option_values::name_of(*self))
     }
 }
 

@@ -12,9 +12,9 @@ use serde::Serialize;
 use crate::cost::Core;
 use crate::report::{BothScalars, Budget, Choice, Sampling, Settings, Sweep, Tuned, tune};
 use scanray_host::console::print;
-use scanray_host::drawing::Workers;
 use scanray_host::failure::Failure;
-use scanray_host::options::{ColorName, Size, name_of, whole};
+use scanray_host::option_values::{ColorName, Size, name_of, whole};
+use scanray_host::parallel_drawing::Workers;
 use scanray_host::scene_file::SceneSource;
 
 /// The command line.

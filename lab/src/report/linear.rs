@@ -3,10 +3,13 @@
 use embedded_graphics::pixelcolor::Rgb888;
 use embedded_graphics::prelude::RgbColor;
 use rayon::prelude::*;
-use scanray::{Color, DisplayColor, PixelSource, Quantizer, Resolution, Scalar};
+use scanray::{
+    Color, Resolution, Scalar,
+    render::{DisplayColor, PixelSource, Quantizer},
+};
 
-use scanray_host::drawing::Workers;
-use scanray_host::options::ColorName;
+use scanray_host::option_values::ColorName;
+use scanray_host::parallel_drawing::Workers;
 
 /// The linear colours of a picture, row by row, each channel in 0…1.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,7 +69,7 @@ impl Linear {
             .iter()
             .map(|[r, g, b]| Color::new(*r, *g, *b))
             .collect();
-        shown::<f64, scanray::Exact<Rgb888>>(&colors, self.resolution)
+        shown::<f64, scanray::render::Exact<Rgb888>>(&colors, self.resolution)
     }
 }
 

@@ -13,17 +13,21 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::prelude::*;
 use scanray::{
-    Object, ObjectNumber, Observer, PixelSource, Ray, RayKind, Resolution, SampleSource, Scene,
-    Subpixel,
+    Ray, Resolution, Scene,
+    camera::Subpixel,
+    ray::ObjectNumber,
+    render::{PixelSource, SampleSource},
+    shape::Object,
+    tracer::{Observer, RayKind},
 };
 
 use super::linear::{Linear, in_greys};
 use super::settings::Sampling;
 use super::tracing::ReportTracer;
-use scanray_host::drawing::Workers;
 use scanray_host::failure::Failure;
 use scanray_host::knobs::Detail;
-use scanray_host::options::ColorName;
+use scanray_host::option_values::ColorName;
+use scanray_host::parallel_drawing::Workers;
 
 /// How many secondary rays follow one another in R1 and R2.
 pub(crate) const DEPTH: usize = 16;
@@ -135,7 +139,7 @@ pub(crate) fn enlarged(resolution: Resolution) -> Result<Resolution, Failure> {
 
 /// Bounds what a picture lacks because secondary rays are not cast.
 ///
-/// A ray of throughput `w` that meets a surface at the last depth would have added at most `w` times the
+/// A ray of throughput `w` that hits a surface at the last depth would have added at most `w` times the
 /// surface's reflection and refraction together, and no more than `w`, because colours are clamped.
 fn left_out(tracer: &ReportTracer<'_, f64>, workers: &Workers) -> LeftOut {
     let Resolution { width, height } = tracer.resolution();
@@ -174,9 +178,9 @@ struct Shares(HashMap<ObjectNumber, (f64, f64)>);
 impl Shares {
     fn of(scene: &Scene<'_, f64>) -> Self {
         let shares = |object: Object<'_, f64>| {
-            let material = scene.material(object.surface());
+            let material = scene.material(object.info());
             let shares = (material.reflection, material.refraction);
-            (object.surface().number, shares)
+            (object.info().number, shares)
         };
         Self(scene.objects().map(shares).collect())
     }
@@ -207,9 +211,8 @@ impl Observer<f64> for Ends<'_, '_> {
         self.throughputs[depth] = weight;
         if depth == DEPTH {
             let met = self.tracer.nearest(ray);
-            let (reflected, refracted) = met.map_or((0.0, 0.0), |met| {
-                self.shares.get(met.object.surface().number)
-            });
+            let (reflected, refracted) =
+                met.map_or((0.0, 0.0), |met| self.shares.get(met.object.info().number));
             self.bound += weight * f64::min(reflected + refracted, 1.0);
         }
     }

@@ -9,9 +9,9 @@ use serde_json::Value;
 
 use crate::cost::Core;
 use scanray_host::knobs::Detail;
-use scanray_host::options::{ColorName, ScalarName, name_of};
+use scanray_host::option_values::{ColorName, ScalarName, name_of};
 
-/// The formulas that rays meet shapes by, and where new rays start.
+/// The formulas that rays hit shapes by, and where new rays start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Formulas {
     /// The core's: robust ones, and origins that are offset by a bound derived from rounding

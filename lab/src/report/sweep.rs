@@ -1,6 +1,9 @@
 //! Measures every setting of every knob.
 
-use scanray::{Color, Dithered, Exact, Resolution, Scalar, Scene};
+use scanray::{
+    Color, Resolution, Scalar, Scene,
+    render::{Dithered, Exact},
+};
 use scanray_stability::textbook::{Effort, Textbook};
 
 use super::document::{Configuration, Cost, Line, Measure, PerPixel, SceneReport, Verdict};
@@ -15,10 +18,10 @@ use super::tracing::ReportTracer;
 use super::tune;
 use crate::cost::{Core, MODEL, Work};
 use scanray_host::compare::{Comparison, DEFAULT_PIXELS_PER_DEGREE};
-use scanray_host::drawing::Workers;
 use scanray_host::failure::Failure;
 use scanray_host::image::Image;
-use scanray_host::options::{ScalarName, with_color};
+use scanray_host::option_values::{ScalarName, with_color};
+use scanray_host::parallel_drawing::Workers;
 use scanray_host::progress::Progress;
 
 /// A share of pixels that rounding alone may put more than one level off: those on edges.

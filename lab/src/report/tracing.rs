@@ -2,17 +2,19 @@
 
 use rayon::prelude::*;
 use scanray::{
-    Adaptive, CenterSample, Color, Nearest, Observer, PixelSource, Ray, Resolution, SampleSource,
-    Scalar, Scanline, Scene, Stages, Subpixel, Supersampled, Tracer,
+    Color, Ray, Resolution, Scalar, Scene, Stages, Tracer,
+    camera::Subpixel,
+    render::{Adaptive, CenterSample, PixelSource, SampleSource, Supersampled},
+    tracer::{Nearest, Observer, Scanline},
 };
 
 use super::references::DEPTH;
 use super::settings::{Sampling, Settings};
 use super::timing::HostTime;
 use crate::cost::{Circumstances, Counter, Work};
-use scanray_host::drawing::Workers;
 use scanray_host::failure::Failure;
 use scanray_host::knobs::Detail;
+use scanray_host::parallel_drawing::Workers;
 
 /// Does something with the source of a way of sampling: the adaptive one stays on its thread.
 macro_rules! with_source {
@@ -77,7 +79,7 @@ impl<'a, T: Scalar> ReportTracer<'a, T> {
         self.0.scene()
     }
 
-    /// The object a ray meets first.
+    /// The object a ray hits first.
     pub(crate) fn nearest(&self, ray: &Ray<T>) -> Option<Nearest<'a, T>> {
         self.0.nearest(ray)
     }

@@ -10,9 +10,9 @@
 
 // Files of tests/common are those that the core's own tests use, too: the core can be tested without this crate.
 pub mod catalogue;
-#[path = "../../../tests/common/clear_misses.rs"]
-pub mod clear_misses;
 pub mod pictures;
+#[path = "../../../tests/common/quick_reject.rs"]
+pub mod quick_reject;
 #[path = "../../../tests/common/random.rs"]
 pub mod random;
 pub mod reference;
@@ -22,7 +22,7 @@ pub mod scenes;
 pub mod settled;
 pub mod textbook;
 
-use scanray::{FromDecimal, Scalar};
+use scanray::{Scalar, parser::FromDecimal};
 
 /// A scalar that cases are measured in.
 pub trait Number: Scalar + FromDecimal {}

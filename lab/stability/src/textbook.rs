@@ -10,7 +10,8 @@
 
 use scanray::formula::shading::power;
 use scanray::{
-    Background, Color, Material, MaterialDescription, Object, Ray, Real, Scalar, Scene, Vec3,
+    Background, Color, Material, MaterialDescription, Ray, Scalar, Scene, Vec3, real::Real,
+    shape::Object,
 };
 
 /// A ray tracer of textbook forms.
@@ -199,7 +200,7 @@ impl<'a, T: Scalar> Textbook<'a, T> {
                 t,
                 point,
                 normal: (point - s.center()).normalize(),
-                material: material(s.surface().material),
+                material: material(s.info().material),
             })
         });
         let planes = scene.planes().iter().filter_map(move |p| {
@@ -208,7 +209,7 @@ impl<'a, T: Scalar> Textbook<'a, T> {
                 t,
                 point: ray.at(t),
                 normal: p.normal(),
-                material: material(p.surface().material),
+                material: material(p.info().material),
             })
         });
         let triangles = scene.triangles().iter().filter_map(move |triangle| {
@@ -217,7 +218,7 @@ impl<'a, T: Scalar> Textbook<'a, T> {
                 t,
                 point: ray.at(t),
                 normal: triangle.normal(),
-                material: material(triangle.surface().material),
+                material: material(triangle.info().material),
             })
         });
         spheres.chain(planes).chain(triangles)
@@ -246,7 +247,7 @@ impl<'a, T: Scalar> Textbook<'a, T> {
                 t,
                 point: place.point,
                 normal: place.normal,
-                material: &scene.materials()[object.surface().material as usize],
+                material: &scene.materials()[object.info().material as usize],
             })
         })
     }

@@ -139,7 +139,7 @@ fn errors_are_those_that_the_display_is_seen_with() {
 }
 
 #[test]
-fn scenes_with_a_tree_are_predicted() {
+fn scenes_with_a_bvh_are_predicted() {
     let folder = Folder::new();
     let (header, sphere) = SMALL_SCENE.trim_end().rsplit_once('\n').unwrap();
     let (_, material) = sphere.split_once("3  1 ").unwrap();

@@ -24,7 +24,7 @@ impl<T> Bvh<'_, T> {
     /// With fewer bounded objects than this a hierarchy does not pay, and none is built.
     pub const FEWEST_OBJECTS: usize = 48;
 
-    /// No tree: every object of a set is tested.
+    /// No hierarchy: every object of a set is tested.
     pub const NONE: Self = Self {
         nodes: &[],
         entries: &[],
@@ -37,7 +37,7 @@ impl<T> Bvh<'_, T> {
     }
 }
 
-/// A box that holds what rays can meet of the objects below, with a margin for the rounding of their
+/// A box that holds what rays can hit of the objects below, with a margin for the rounding of their
 /// tests.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BvhNode<T = f32> {

@@ -1,19 +1,19 @@
-//! The shape of the hierarchy; that it leaves out nothing that a ray meets is tested in tests/hits/tree.rs.
+//! The shape of the hierarchy; that it leaves out nothing that a ray hits is tested in tests/hits/bvh.rs.
 
 use std::vec::Vec;
 
 use super::bounds::Bounds;
 use super::{Bvh, BvhNode, NodeContent, Walk, build};
 use crate::ray::Ray;
-use crate::shape::{Geometry, Sphere, Surface};
+use crate::shape::{Geometry, ObjectInfo, Sphere};
 use crate::vec3::Vec3;
 
 fn sphere((center, radius): (Vec3<f32>, f32)) -> Sphere<f32> {
-    let surface = Surface {
+    let info = ObjectInfo {
         material: 0,
         number: 0,
     };
-    Sphere::new(center, radius, surface).unwrap()
+    Sphere::new(center, radius, info).unwrap()
 }
 
 fn scene(spheres: &[Sphere<f32>]) -> Geometry<'_> {
@@ -72,12 +72,12 @@ fn check(spheres: &[(Vec3<f32>, f32)]) -> usize {
     assert!(deepest <= Bvh::<f32>::MAX_DEPTH);
 
     // A walk that nothing stops visits every node.
-    let tree = Bvh {
+    let bvh = Bvh {
         nodes: &nodes,
         entries: &entries,
     };
     let nan = Vec3::splat(f32::NAN);
-    let mut walk = Walk::new(tree, &Ray::new(nan, nan));
+    let mut walk = Walk::new(bvh, &Ray::new(nan, nan));
     let (mut boxes, mut objects) = (0, 0);
     while let Some(leaf) = walk.next_leaf(1.0, || boxes += 1) {
         objects += leaf.len();
@@ -87,7 +87,7 @@ fn check(spheres: &[(Vec3<f32>, f32)]) -> usize {
 }
 
 #[test]
-fn trees_of_any_number_of_spheres_keep_their_promises() {
+fn hierarchies_of_any_number_of_spheres_keep_their_promises() {
     for count in 1..200_u32 {
         let place = |i: u32| (i.wrapping_mul(2_654_435_769) >> 8) as f32 / 1e6;
         let spheres: Vec<_> = (0..count)
@@ -119,7 +119,7 @@ fn sizes_of_any_spread_keep_the_depth() {
 }
 
 #[test]
-fn numbers_at_the_end_of_the_range_make_a_tree() {
+fn numbers_at_the_end_of_the_range_make_a_bvh() {
     let largest = Vec3::splat(f32::MAX);
     let mut spheres = std::vec![(largest, 1e19), (-largest, 1.0), (largest, 1e-30)];
     spheres.extend((0..40).map(|i| (Vec3::splat(1e-40 * i as f32), 1e-38)));

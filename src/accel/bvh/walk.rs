@@ -1,4 +1,4 @@
-//! The leaves that a ray can meet.
+//! The leaves that a ray can hit.
 
 use heapless::Vec;
 
@@ -7,9 +7,9 @@ use crate::ray::Ray;
 use crate::scalar::Scalar;
 use crate::vec3::Vec3;
 
-/// A walk of a ray through a hierarchy, from leaf to leaf, roughly in the order in which the ray meets them.
+/// A walk of a ray through a hierarchy, from leaf to leaf, roughly in the order in which the ray hits them.
 pub(crate) struct Walk<'a, T> {
-    tree: Bvh<'a, T>,
+    bvh: Bvh<'a, T>,
     axes: [Axis<T>; 3],
     /// The axis of the largest component of the direction.
     leading: usize,
@@ -25,13 +25,13 @@ struct Axis<T> {
     /// Component of the origin, to be compared with the lowest and with the highest coordinate of a
     /// box: the margin for the ray is in it.
     origin: [T; 2],
-    /// Which of the two the ray meets first.
+    /// Which of the two the ray hits first.
     entry: usize,
 }
 
 impl<'a, T: Scalar> Walk<'a, T> {
     #[inline]
-    pub(crate) fn new(tree: Bvh<'a, T>, ray: &Ray<T>) -> Self {
+    pub(crate) fn new(bvh: Bvh<'a, T>, ray: &Ray<T>) -> Self {
         let (o, d) = (ray.origin, ray.direction);
         let size = o.x.abs() + o.y.abs() + o.z.abs();
         let margin = size * (T::EPSILON * T::from_i32(64));
@@ -46,12 +46,12 @@ impl<'a, T: Scalar> Walk<'a, T> {
         };
         let Vec3 { x, y, z } = d.abs();
         let mut nodes = Vec::new();
-        if tree.is_some() {
+        if bvh.is_some() {
             // There is room.
             let _ = nodes.push(0);
         }
         Self {
-            tree,
+            bvh,
             axes: [axis(o.x, d.x), axis(o.y, d.y), axis(o.z, d.z)],
             leading: if x > y && x > z {
                 0
@@ -64,18 +64,18 @@ impl<'a, T: Scalar> Walk<'a, T> {
         }
     }
 
-    /// The next leaf with objects that the ray may meet at `t ≤ t_max`. `tested` is told of every box.
+    /// The next leaf with objects that the ray may hit at `t ≤ t_max`. `tested` is told of every box.
     #[inline]
     pub(crate) fn next_leaf(&mut self, t_max: T, mut tested: impl FnMut()) -> Option<&'a [u32]> {
         loop {
-            let node = self.tree.nodes.get(self.nodes.pop()? as usize)?;
+            let node = self.bvh.nodes.get(self.nodes.pop()? as usize)?;
             tested();
-            if !self.may_meet(node, t_max) {
+            if !self.may_hit(node, t_max) {
                 continue;
             }
             match node.content() {
                 NodeContent::Leaf { first, count } => {
-                    let entries = self.tree.entries.get(first as usize..)?;
+                    let entries = self.bvh.entries.get(first as usize..)?;
                     return entries.get(..count as usize);
                 }
                 NodeContent::Inner { first, axis } => {
@@ -88,9 +88,9 @@ impl<'a, T: Scalar> Walk<'a, T> {
         }
     }
 
-    /// Whether the ray may meet something in the box at `0 < t ≤ t_max`.
+    /// Whether the ray may hit something in the box at `0 < t ≤ t_max`.
     #[inline(always)]
-    fn may_meet(&self, node: &BvhNode<T>, t_max: T) -> bool {
+    fn may_hit(&self, node: &BvhNode<T>, t_max: T) -> bool {
         let bounds = node.bounds();
         let slab = |i: usize, axis: &Axis<T>| {
             let (entry, exit) = (axis.entry & 1, !axis.entry & 1);

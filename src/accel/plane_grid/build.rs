@@ -1,10 +1,10 @@
-//! What rays can meet that leave a plane, by the place where they start.
+//! What rays can hit that leave a plane, by the place where they start.
 //!
-//! Planes have no bounds, so that a side of one meets nearly everything. But the lower coordinates of an
+//! Planes have no bounds, so that a side of one hits nearly everything. But the lower coordinates of an
 //! object tell whether it lies behind a ray that goes up along the axis, and the upper ones likewise; and
 //! an object stands between a place and a light only inside the wedge from the light to the slab in which
 //! the place lies. Both are found for slabs of a bounded part of the plane, so that the margins can be
-//! relative to its size; from elsewhere anything may be met.
+//! relative to its size; from elsewhere anything may be hit.
 
 use super::{PlaneGrid, Slab, across};
 use crate::accel::{ObjectSet, Source, collect, margin, size};
@@ -84,14 +84,14 @@ impl<'p, T: Scalar> Part<'p, T> {
         };
         let [(low_u, step_u, u), (low_v, step_v, v)] = Axis::BOTH.map(|axis| {
             let (mut low, mut high) = (T::MAX, -T::MAX);
-            for ball in scene
+            for bounds in scene
                 .geometry
                 .objects()
                 .filter_map(|it| it.bounding_sphere())
             {
-                let center = axis.of(across(normal_axis, ball.center));
-                high = (center + ball.radius).max(high);
-                low = -((ball.radius - center).max(-low));
+                let center = axis.of(across(normal_axis, bounds.center));
+                high = (center + bounds.radius).max(high);
+                low = -((bounds.radius - center).max(-low));
             }
             let middle = (low + high) * T::HALF;
             let half = (high - low) * T::HALF * widening();
@@ -117,25 +117,25 @@ impl<'p, T: Scalar> Part<'p, T> {
         axis.of(self.low) + axis.of(self.step) * T::from_i32(steps)
     }
 
-    /// What can be met from a slab.
+    /// What can be hit from a slab.
     fn slab(&self, scene: &Source<'_, T>, axis: Axis, number: i32) -> Slab {
         let (from, to) = (self.border(axis, number), self.border(axis, number + 1));
-        let along = |ball: &BoundingSphere<T>| axis.of(across(self.normal_axis, ball.center));
+        let along = |bounds: &BoundingSphere<T>| axis.of(across(self.normal_axis, bounds.center));
         Slab {
             ahead: [
-                self.collect(scene, |ball, reach| !(along(ball) + reach < from)),
-                self.collect(scene, |ball, reach| !(along(ball) - reach > to)),
+                self.collect(scene, |bounds, reach| !(along(bounds) + reach < from)),
+                self.collect(scene, |bounds, reach| !(along(bounds) - reach > to)),
             ],
-            occluders: self.collect(scene, |ball, reach| {
+            occluders: self.collect(scene, |bounds, reach| {
                 scene.lights.iter().any(|light| {
-                    !(self.is_outside(light, axis, [from, to], ball, reach)
-                        || self.is_outside(light, axis, [to, from], ball, reach))
+                    !(self.is_outside(light, axis, [from, to], bounds, reach)
+                        || self.is_outside(light, axis, [to, from], bounds, reach))
                 })
             }),
         }
     }
 
-    /// The objects with a ball, whose radius a margin is added to, for which something holds, and those
+    /// The objects with a sphere, whose radius a margin is added to, for which something holds, and those
     /// without one.
     fn collect(
         &self,
@@ -143,9 +143,9 @@ impl<'p, T: Scalar> Part<'p, T> {
         holds: impl Fn(&BoundingSphere<T>, T) -> bool,
     ) -> ObjectSet {
         collect(&scene.geometry, |object| {
-            object.bounding_sphere().is_none_or(|ball| {
-                let margin = margin(self.size + size(ball.center), ball.radius);
-                holds(&ball, ball.radius + margin)
+            object.bounding_sphere().is_none_or(|bounds| {
+                let margin = margin(self.size + size(bounds.center), bounds.radius);
+                holds(&bounds, bounds.radius + margin)
             })
         })
     }
@@ -168,14 +168,14 @@ impl<'p, T: Scalar> Part<'p, T> {
         }
     }
 
-    /// Whether a ball lies beyond the first of two borders as the light sees it: beyond the plane through
+    /// Whether a sphere lies beyond the first of two borders as the light sees it: beyond the plane through
     /// that border and the light, on whose other side all rays from the slab to the light stay.
     fn is_outside(
         &self,
         light: &Light<T>,
         axis: Axis,
         [border, other]: [T; 2],
-        ball: &BoundingSphere<T>,
+        bounds: &BoundingSphere<T>,
         reach: T,
     ) -> bool {
         let place = self.place(axis, border);
@@ -201,7 +201,7 @@ impl<'p, T: Scalar> Part<'p, T> {
         }
         let height = |point: Vec3<T>| wall.dot(point - light.position) / length;
         let margin = margin(size(light.position), T::ZERO);
-        let (slab, ball) = (height(self.place(axis, other)), height(ball.center));
-        (slab > margin && ball < -(reach + margin)) || (slab < -margin && ball > reach + margin)
+        let (slab, bounds) = (height(self.place(axis, other)), height(bounds.center));
+        (slab > margin && bounds < -(reach + margin)) || (slab < -margin && bounds > reach + margin)
     }
 }

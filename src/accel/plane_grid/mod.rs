@@ -1,4 +1,4 @@
-//! Which objects a ray that leaves a plane can meet, by the place where it starts: the data; how it is
+//! Which objects a ray that leaves a plane can hit, by the place where it starts: the data; how it is
 //! found is told in [`build`].
 
 mod build;
@@ -9,10 +9,10 @@ use super::ObjectSet;
 use crate::scalar::Scalar;
 use crate::vec3::Vec3;
 
-/// What the rays can meet that leave a plane, by the place where they start: slabs across two axes.
+/// What the rays can hit that leave a plane, by the place where they start: slabs across two axes.
 ///
 /// A place lies in one slab of either axis, unless it is so far away that it lies in none, where anything
-/// may be met. The sets tell bounded objects apart; planes are in all of them.
+/// may be hit. The sets tell bounded objects apart; planes are in all of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneGrid<T = f32> {
     /// The axis along which the normal is longest: 0, 1 or 2 for x, y or z. The slabs lie across the two
@@ -26,7 +26,7 @@ pub struct PlaneGrid<T = f32> {
     pub slabs: [[Slab; Slab::PER_AXIS]; 2],
 }
 
-/// What can be met from a slab of a plane.
+/// What can be hit from a slab of a plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Slab {
     /// Objects ahead of mirrored and refracted rays that go up along the axis, and that go down.
@@ -43,7 +43,7 @@ pub(crate) struct Cell<'a> {
 }
 
 impl<T: Scalar> PlaneGrid<T> {
-    /// Anything may be met.
+    /// Anything may be hit.
     pub const ALL: Self = Self {
         normal_axis: 0,
         low: [T::ZERO; 2],
@@ -73,7 +73,7 @@ impl Slab {
     /// The number of slabs across an axis.
     pub const PER_AXIS: usize = 8;
 
-    /// Anything may be met.
+    /// Anything may be hit.
     pub const ALL: Self = Self {
         ahead: [ObjectSet::ALL; 2],
         occluders: ObjectSet::ALL,

@@ -17,7 +17,10 @@ use mipidsi::Builder;
 use mipidsi::interface::SpiInterface;
 use mipidsi::models::{ILI9341Rgb565, Model, ST7789};
 use mipidsi::options::{Orientation, Rotation};
-use scanray::{Budget, Frame, Picture, Progress, Resolution, Tracer};
+use scanray::{
+    Picture, Resolution, Tracer,
+    render::{Budget, Frame, Progress},
+};
 
 use self::bus::{DisplayOnI2c, NoDelay, Spi};
 

@@ -12,8 +12,8 @@ use clap::{Args, ValueEnum};
 
 use crate::console::{print, say};
 use crate::failure::Failure;
-use crate::options::whole;
-use crate::output::Place;
+use crate::option_values::whole;
+use crate::output_files::Place;
 use random::Random;
 
 /// The most objects: what the host's pools hold of a shape.

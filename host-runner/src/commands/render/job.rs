@@ -4,29 +4,29 @@ use std::io::{self, Write};
 use std::ops::Range;
 
 use embedded_graphics::pixelcolor::Rgb888;
-use scanray::{DisplayColor, Picture, Resolution, Scene, Vec3};
+use scanray::{Picture, Resolution, Scene, Vec3, render::DisplayColor};
 
 use super::RenderArgs;
 use crate::canvas::Canvas;
 use crate::console::{print, say};
 use crate::cost::Work;
-use crate::drawing::{Parts, Workers};
 use crate::failure::Failure;
 use crate::host_pixels::{Drawing, HostPixels};
 use crate::host_tracer::HostTracer;
 use crate::image::{self, Animation, ImageFormat, require_gif_memory};
 use crate::interrupt;
-use crate::options::{RangeOption, name_of, with_color};
-use crate::output::{Place, Unwritten};
-use crate::part::{self, PartRecord, scene_identity};
-use crate::picture_args::PictureSettings;
-use crate::places::{PictureFile, Steps};
+use crate::option_values::{RangeOption, name_of, with_color};
+use crate::output_files::{Place, Unwritten};
+use crate::output_paths::{PictureFile, Steps};
+use crate::parallel_drawing::{Parts, Workers};
+use crate::picture_part::{self, PartRecord, scene_identity};
 use crate::pools::{HostPools, HostScalar};
 use crate::progress::Progress;
 use crate::render_report::{Pools, RenderReport, TurntableReport};
-use crate::scene_data;
+use crate::render_settings::PictureSettings;
 use crate::scene_file::SceneSource;
 use crate::scene_lines::object_lines;
+use crate::scene_listing;
 use crate::turntable::{Axis, Crossing, Turntable, crossings, default_axis};
 
 /// The pictures of a scene, to be drawn.
@@ -63,9 +63,9 @@ impl Job<'_> {
         if args.verbose {
             // The listing is for people when standard output is taken by data.
             if args.json || self.writes_to_stdout() {
-                let _ = scene_data::write(&mut io::stderr().lock(), &scene);
+                let _ = scene_listing::write(&mut io::stderr().lock(), &scene);
             } else {
-                still_draw(print(|out| scene_data::write(out, &scene)))?;
+                still_draw(print(|out| scene_listing::write(out, &scene)))?;
             }
         }
         let resolution = self.settings.resolution(scene.resolution());
@@ -264,7 +264,7 @@ impl Job<'_> {
         scene_identity: &str,
         studio: &Studio<'_, T>,
     ) -> PartRecord {
-        let mut settings = vec![(part::SCENE.to_owned(), scene_identity.to_owned())];
+        let mut settings = vec![(picture_part::SCENE.to_owned(), scene_identity.to_owned())];
         settings.extend(axis.map(|axis| ("about".to_owned(), format!("{},{}", axis.x, axis.z))));
         settings.extend(self.settings.record());
         PartRecord {
@@ -384,7 +384,7 @@ impl<T: HostScalar + Drawing> Studio<'_, T> {
         report: &mut RenderReport,
         consume: &mut Consume<'_>,
     ) -> Result<u64, Unwritten> {
-        let picture: Picture<_, scanray::Exact<C>> = Picture::new(pixels);
+        let picture: Picture<_, scanray::render::Exact<C>> = Picture::new(pixels);
         let (rows, workers, progress) = (self.rows.clone(), job.workers, &self.progress);
         let parts = if job.settings.dither {
             Parts::new(picture.dithered(), rows, workers, progress)

@@ -10,13 +10,13 @@ use clap::Args;
 use self::job::Job;
 use crate::console::print;
 use crate::displays;
-use crate::drawing::Workers;
 use crate::failure::Failure;
 use crate::image::ImageFormat;
-use crate::options::{RangeOption, ScalarName, axis, centiseconds, whole};
-use crate::output::Place;
-use crate::picture_args::PictureArgs;
-use crate::places::{PictureFile, Steps, places};
+use crate::option_values::{RangeOption, ScalarName, axis, centiseconds, whole};
+use crate::output_files::Place;
+use crate::output_paths::{PictureFile, Steps, places};
+use crate::parallel_drawing::Workers;
+use crate::render_settings::PictureArgs;
 use crate::scene_file::SceneSource;
 use crate::turntable::Axis;
 

@@ -15,7 +15,10 @@ use std::time::{Duration, Instant};
 use annotate_snippets::Renderer;
 use clap::Args;
 use crossterm::event::{self, Event, KeyCode, KeyEventKind, KeyModifiers};
-use scanray::{Budget, Color, Dithered, Exact, Picture, Progress, Progressive, Resolution, Scene};
+use scanray::{
+    Color, Picture, Resolution, Scene,
+    render::{Budget, Dithered, Exact, Progress, Progressive},
+};
 
 use self::cells::filling;
 use self::screen::{Linear, Pixels, Screen, Shown, shown};
@@ -27,10 +30,10 @@ use crate::failure::Failure;
 use crate::host_pixels::Drawing;
 use crate::host_tracer::HostTracer;
 use crate::interrupt;
-use crate::memory::Shortage;
-use crate::options::{ScalarName, with_color};
-use crate::picture_args::{PictureArgs, PictureSettings};
+use crate::option_values::{ScalarName, with_color};
+use crate::picture_memory::Shortage;
 use crate::pools::{HostPools, HostScalar};
+use crate::render_settings::{PictureArgs, PictureSettings};
 use crate::scene_file::SceneSource;
 
 /// The command line.

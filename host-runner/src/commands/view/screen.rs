@@ -5,9 +5,12 @@ use std::convert::Infallible;
 use embedded_graphics::Pixel;
 use embedded_graphics::pixelcolor::Rgb888;
 use embedded_graphics::prelude::*;
-use scanray::{Color, DisplayColor, Quantizer, Resolution, Scalar};
+use scanray::{
+    Color, Resolution, Scalar,
+    render::{DisplayColor, Quantizer},
+};
 
-use crate::memory::{Shortage, room};
+use crate::picture_memory::{Shortage, room};
 
 /// Pixels as a display shows them, black at first.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -9,7 +9,7 @@ mod triangle;
 
 use fearless_simd::prelude::*;
 use scanray::shape::{Plane, Sphere, Triangle};
-use scanray::{Object, ObjectSet, Vec3};
+use scanray::{Vec3, accel::ObjectSet, shape::Object};
 
 use super::Closest;
 use super::batch::{Batch, Lanes};
@@ -24,46 +24,51 @@ macro_rules! for_each_shape {
 
 /// Eight rays and a shape: `Primitive` of the core. The formulas are the core's; which lanes they hold for is decided here.
 pub(super) trait LaneShape: Sized {
-    /// It is found by the tree of a large scene.
+    /// It is found by the hierarchy of a large scene.
     const HAS_BOUNDS: bool;
-    /// It is all of its ball, whose crossings are its own.
-    const IS_BALL: bool;
-    /// A ray that leaves it cannot meet it again.
+    /// It is all of its sphere, whose crossings are its own.
+    const IS_ITS_BOUNDS: bool;
+    /// A ray that leaves it cannot hit it again.
     const IS_FLAT: bool;
 
-    /// What tests of what has bounds begin with: a ball around it, or whatever they take it for. A leaf of a tree has it at hand.
-    fn ball(&self) -> Ball;
+    /// What tests of what has bounds begin with: a sphere around it, or whatever they take it for. A leaf of a hierarchy has it at hand.
+    fn bounds(&self) -> Bounds;
 
-    /// The nearest meetings ahead; `None` where no lane has any. `Primitive::hit`.
-    fn meetings<S: Simd>(&self, simd: S, ball: Ball, rays: &Rays<S>) -> Option<Meeting<S>>;
+    /// The nearest intersections ahead; `None` where no lane has any. `Primitive::hit`.
+    fn intersections<S: Simd>(
+        &self,
+        simd: S,
+        bounds: Bounds,
+        rays: &Rays<S>,
+    ) -> Option<Intersection<S>>;
 
-    /// The lanes that meet it within `0 < t < t_max`; `None` where none does. `Primitive::occludes`.
+    /// The lanes that hit it within `0 < t < t_max`; `None` where none does. `Primitive::occludes`.
     #[inline(always)]
     fn occluded<S: Simd>(
         &self,
         simd: S,
-        ball: Ball,
+        bounds: Bounds,
         rays: &Rays<S>,
         t_max: Numbers<S>,
     ) -> Option<Mask<S>> {
-        let Meeting { lanes, t, .. } = self.meetings(simd, ball, rays)?;
+        let Intersection { lanes, t, .. } = self.intersections(simd, bounds, rays)?;
         Some(lanes & t.simd_gt(0.0) & t.simd_lt(t_max))
     }
 
-    /// The points where rays of a batch meet it. `Primitive::point`.
+    /// The points where rays of a batch hit it. `Primitive::point`.
     fn points<S: Simd>(&self, simd: S, rays: &Rays<S>, batch: &Batch, lanes: &Lanes) -> Point<S>;
 }
 
-/// A ball.
+/// A sphere.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Ball {
+pub(super) struct Bounds {
     pub(super) center: Vec3,
     pub(super) radius_squared: f32,
 }
 
-/// Where rays meet an object.
+/// Where rays hit an object.
 #[derive(Clone, Copy)]
-pub(super) struct Meeting<S: Simd> {
+pub(super) struct Intersection<S: Simd> {
     /// The lanes that may; what the others have does not count.
     pub(super) lanes: Mask<S>,
     /// Distance; not above 0 or NaN for none.
@@ -115,14 +120,14 @@ impl<'a> Shapes<'a> {
         true
     }
 
-    /// How many there are if all that have bounds are balls, else 0.
-    pub(super) fn balls_alone(&self) -> usize {
-        let mut balls = 0;
+    /// How many there are if all that have bounds are spheres, else 0.
+    pub(super) fn spheres_alone(&self) -> usize {
+        let mut spheres = 0;
         macro_rules! count {
             ([$($shape:ident $list:ident),*]) => {
                 $(
-                    if $shape::IS_BALL {
-                        balls += self.$list.len();
+                    if $shape::IS_ITS_BOUNDS {
+                        spheres += self.$list.len();
                     } else if $shape::HAS_BOUNDS && !self.$list.is_empty() {
                         return 0;
                     }
@@ -130,12 +135,12 @@ impl<'a> Shapes<'a> {
             };
         }
         for_each_shape!(count);
-        balls
+        spheres
     }
 
-    /// Offers what rays can meet that all leave the same object, or none.
+    /// Offers what rays can hit that all leave the same object, or none.
     #[inline(always)]
-    pub(super) fn meet<S: Simd>(
+    pub(super) fn hit<S: Simd>(
         &self,
         simd: S,
         rays: &Rays<S>,
@@ -150,9 +155,9 @@ impl<'a> Shapes<'a> {
                         if $shape::IS_FLAT && listed.index == leaves {
                             continue;
                         }
-                        let meeting = listed.shape.meetings(simd, listed.shape.ball(), rays);
-                        if let Some(meeting) = meeting {
-                            closest.offer(simd, &meeting, listed.index);
+                        let intersection = listed.shape.intersections(simd, listed.shape.bounds(), rays);
+                        if let Some(intersection) = intersection {
+                            closest.offer(simd, &intersection, listed.index);
                         }
                     }
                 )*
@@ -180,11 +185,11 @@ impl<'a> Shapes<'a> {
                             continue;
                         }
                         // Others take less than to ask first.
-                        if !$shape::IS_BALL && $shape::HAS_BOUNDS && occluded.all_true() {
+                        if !$shape::IS_ITS_BOUNDS && $shape::HAS_BOUNDS && occluded.all_true() {
                             break;
                         }
-                        let ball = listed.shape.ball();
-                        if let Some(lanes) = listed.shape.occluded(simd, ball, rays, t_max) {
+                        let bounds = listed.shape.bounds();
+                        if let Some(lanes) = listed.shape.occluded(simd, bounds, rays, t_max) {
                             *occluded |= lanes;
                         }
                     }
@@ -194,9 +199,9 @@ impl<'a> Shapes<'a> {
         for_each_shape!(occlude);
     }
 
-    /// Offers what no tree holds, to rays that may leave any objects.
+    /// Offers what no hierarchy holds, to rays that may leave any objects.
     #[inline(always)]
-    pub(super) fn meet_unbounded<S: Simd>(
+    pub(super) fn hit_unbounded<S: Simd>(
         &self,
         simd: S,
         rays: &Rays<S>,
@@ -208,7 +213,7 @@ impl<'a> Shapes<'a> {
                 $(
                     if !$shape::HAS_BOUNDS {
                         for listed in &self.$list {
-                            let object = (listed.shape, Ball::default(), listed.index);
+                            let object = (listed.shape, Bounds::default(), listed.index);
                             offer_one(simd, object, rays, leaves, closest);
                         }
                     }
@@ -218,7 +223,7 @@ impl<'a> Shapes<'a> {
         for_each_shape!(offer);
     }
 
-    /// Adds the lanes in which what no tree holds casts a shadow before `t_max`.
+    /// Adds the lanes in which what no hierarchy holds casts a shadow before `t_max`.
     #[inline(always)]
     pub(super) fn occlude_unbounded<S: Simd>(
         &self,
@@ -234,7 +239,7 @@ impl<'a> Shapes<'a> {
                     if !$shape::HAS_BOUNDS {
                         for listed in &self.$list {
                             if listed.casts_shadow {
-                                let object = (listed.shape, Ball::default(), listed.index);
+                                let object = (listed.shape, Bounds::default(), listed.index);
                                 occlude_by_one(simd, object, rays, leaves, t_max, occluded);
                             }
                         }
@@ -260,16 +265,16 @@ fn among<'l, 'a, O>(
 #[inline(always)]
 fn offer_one<S: Simd, O: LaneShape>(
     simd: S,
-    (shape, ball, index): (&O, Ball, u32),
+    (shape, bounds, index): (&O, Bounds, u32),
     rays: &Rays<S>,
     leaves: Indices<S>,
     closest: &mut Closest<S>,
 ) {
-    if let Some(mut meeting) = shape.meetings(simd, ball, rays) {
+    if let Some(mut intersection) = shape.intersections(simd, bounds, rays) {
         if O::IS_FLAT {
-            meeting.lanes &= !leaves.simd_eq(index);
+            intersection.lanes &= !leaves.simd_eq(index);
         }
-        closest.offer(simd, &meeting, index);
+        closest.offer(simd, &intersection, index);
     }
 }
 
@@ -277,13 +282,13 @@ fn offer_one<S: Simd, O: LaneShape>(
 #[inline(always)]
 fn occlude_by_one<S: Simd, O: LaneShape>(
     simd: S,
-    (shape, ball, index): (&O, Ball, u32),
+    (shape, bounds, index): (&O, Bounds, u32),
     rays: &Rays<S>,
     leaves: Indices<S>,
     t_max: Numbers<S>,
     occluded: &mut Mask<S>,
 ) {
-    if let Some(mut lanes) = shape.occluded(simd, ball, rays, t_max) {
+    if let Some(mut lanes) = shape.occluded(simd, bounds, rays, t_max) {
         if O::IS_FLAT {
             lanes &= !leaves.simd_eq(index);
         }
@@ -291,7 +296,7 @@ fn occlude_by_one<S: Simd, O: LaneShape>(
     }
 }
 
-/// The points where rays of a batch meet an object.
+/// The points where rays of a batch hit an object.
 #[inline(always)]
 pub(super) fn point<S: Simd>(
     simd: S,
@@ -311,11 +316,11 @@ pub(super) fn point<S: Simd>(
     for_each_shape!(point)
 }
 
-/// An object in a leaf of a tree.
+/// An object in a leaf of a hierarchy.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LeafObject<'a> {
     /// At hand, so that most tests end without a look at the object.
-    pub(super) ball: Ball,
+    pub(super) bounds: Bounds,
     object: Object<'a>,
     /// Its index among all objects.
     pub(super) index: u32,
@@ -324,16 +329,16 @@ pub(super) struct LeafObject<'a> {
 
 impl<'a> LeafObject<'a> {
     pub(super) fn new(object: Object<'a>, index: u32, casts_shadow: bool) -> Self {
-        macro_rules! ball {
+        macro_rules! bounds {
             ([$($shape:ident $list:ident),*]) => {
                 match object {
-                    $(Object::$shape(shape) => shape.ball(),)*
-                    _ => Ball::default(),
+                    $(Object::$shape(shape) => shape.bounds(),)*
+                    _ => Bounds::default(),
                 }
             };
         }
         Self {
-            ball: for_each_shape!(ball),
+            bounds: for_each_shape!(bounds),
             object,
             index,
             casts_shadow,
@@ -342,7 +347,7 @@ impl<'a> LeafObject<'a> {
 
     /// Offers it to rays that may leave any objects.
     #[inline(always)]
-    pub(super) fn meet<S: Simd>(
+    pub(super) fn hit<S: Simd>(
         &self,
         simd: S,
         rays: &Rays<S>,
@@ -354,7 +359,7 @@ impl<'a> LeafObject<'a> {
                 match self.object {
                     $(
                         Object::$shape(shape) if $shape::HAS_BOUNDS => {
-                            offer_one(simd, (shape, self.ball, self.index), rays, leaves, closest)
+                            offer_one(simd, (shape, self.bounds, self.index), rays, leaves, closest)
                         }
                     )*
                     _ => {}
@@ -379,7 +384,7 @@ impl<'a> LeafObject<'a> {
                 match self.object {
                     $(
                         Object::$shape(shape) if $shape::HAS_BOUNDS => {
-                            let object = (shape, self.ball, self.index);
+                            let object = (shape, self.bounds, self.index);
                             occlude_by_one(simd, object, rays, leaves, t_max, occluded)
                         }
                     )*

@@ -4,26 +4,31 @@ use fearless_simd::prelude::*;
 use scanray::formula::plane::{offset, project, rise};
 use scanray::shape::Plane;
 
-use super::{Ball, LaneShape, Meeting, Point};
+use super::{Bounds, Intersection, LaneShape, Point};
 use crate::packet::batch::{Batch, Lanes};
 use crate::packet::lanes::{InLanes, Mask, Numbers, Rays, Vec3s};
 
 impl LaneShape for Plane {
     const HAS_BOUNDS: bool = false;
-    const IS_BALL: bool = false;
+    const IS_ITS_BOUNDS: bool = false;
     const IS_FLAT: bool = true;
 
     #[inline(always)]
-    fn ball(&self) -> Ball {
-        Ball::default()
+    fn bounds(&self) -> Bounds {
+        Bounds::default()
     }
 
     #[inline(always)]
-    fn meetings<S: Simd>(&self, simd: S, _: Ball, rays: &Rays<S>) -> Option<Meeting<S>> {
+    fn intersections<S: Simd>(
+        &self,
+        simd: S,
+        _: Bounds,
+        rays: &Rays<S>,
+    ) -> Option<Intersection<S>> {
         let normal = Vec3s::in_every_lane(simd, self.normal());
         let height = Numbers::splat(simd, self.height());
         let (below, slope) = rise(normal, height, rays.origin, rays.direction);
-        Some(Meeting {
+        Some(Intersection {
             lanes: Mask::splat(simd, true),
             t: below / slope,
             place: None,

@@ -4,27 +4,32 @@ use fearless_simd::prelude::*;
 use scanray::formula::sphere::{chord, crossings, project};
 use scanray::shape::Sphere;
 
-use super::{Ball, LaneShape, Meeting, Point};
+use super::{Bounds, Intersection, LaneShape, Point};
 use crate::packet::batch::{Batch, Lanes};
 use crate::packet::lanes::{InLanes, Mask, Numbers, Rays, Vec3s};
 
 impl LaneShape for Sphere {
     const HAS_BOUNDS: bool = true;
-    const IS_BALL: bool = true;
+    const IS_ITS_BOUNDS: bool = true;
     const IS_FLAT: bool = false;
 
     #[inline(always)]
-    fn ball(&self) -> Ball {
-        Ball {
+    fn bounds(&self) -> Bounds {
+        Bounds {
             center: self.center(),
             radius_squared: self.radius_squared(),
         }
     }
 
     #[inline(always)]
-    fn meetings<S: Simd>(&self, simd: S, ball: Ball, rays: &Rays<S>) -> Option<Meeting<S>> {
-        let (near, far) = crossings_of(simd, ball, rays)?;
-        Some(Meeting {
+    fn intersections<S: Simd>(
+        &self,
+        simd: S,
+        bounds: Bounds,
+        rays: &Rays<S>,
+    ) -> Option<Intersection<S>> {
+        let (near, far) = crossings_of(simd, bounds, rays)?;
+        Some(Intersection {
             lanes: Mask::splat(simd, true),
             t: Numbers::select(near.simd_gt(0.0), near, far),
             place: None,
@@ -36,11 +41,11 @@ impl LaneShape for Sphere {
     fn occluded<S: Simd>(
         &self,
         simd: S,
-        ball: Ball,
+        bounds: Bounds,
         rays: &Rays<S>,
         t_max: Numbers<S>,
     ) -> Option<Mask<S>> {
-        let (near, far) = crossings_of(simd, ball, rays)?;
+        let (near, far) = crossings_of(simd, bounds, rays)?;
         Some((near.simd_gt(0.0) & near.simd_lt(t_max)) | (far.simd_gt(0.0) & far.simd_lt(t_max)))
     }
 
@@ -59,9 +64,13 @@ impl LaneShape for Sphere {
 
 /// Distances of both crossings of each ray, nearer first, NaN without one; `None` where no lane has any.
 #[inline(always)]
-fn crossings_of<S: Simd>(simd: S, ball: Ball, rays: &Rays<S>) -> Option<(Numbers<S>, Numbers<S>)> {
-    let center = Vec3s::in_every_lane(simd, ball.center);
-    let square = Numbers::splat(simd, ball.radius_squared);
+fn crossings_of<S: Simd>(
+    simd: S,
+    bounds: Bounds,
+    rays: &Rays<S>,
+) -> Option<(Numbers<S>, Numbers<S>)> {
+    let center = Vec3s::in_every_lane(simd, bounds.center);
+    let square = Numbers::splat(simd, bounds.radius_squared);
     let (middle, half_chord_squared) = chord(center, square, rays.origin, rays.direction);
     if !half_chord_squared.simd_ge(0.0).any_true() {
         return None;

@@ -6,27 +6,32 @@ use scanray::formula::sphere::closest_approach;
 use scanray::formula::triangle::{Shear, edge, interpolate, point, product_error, reach};
 use scanray::shape::Triangle;
 
-use super::{Ball, LaneShape, Meeting, Point};
+use super::{Bounds, Intersection, LaneShape, Point};
 use crate::packet::batch::{Batch, Lanes};
 use crate::packet::lanes::{InLanes, Mask, Numbers, Rays, Vec3s};
 
 impl LaneShape for Triangle {
     const HAS_BOUNDS: bool = true;
-    const IS_BALL: bool = false;
+    const IS_ITS_BOUNDS: bool = false;
     const IS_FLAT: bool = true;
 
     #[inline(always)]
-    fn ball(&self) -> Ball {
-        Ball {
-            center: self.ball_center(),
-            radius_squared: self.ball_radius_squared(),
+    fn bounds(&self) -> Bounds {
+        Bounds {
+            center: self.bounds_center(),
+            radius_squared: self.bounds_radius_squared(),
         }
     }
 
     /// `Triangle::intersect_exactly`.
     #[inline(always)]
-    fn meetings<S: Simd>(&self, simd: S, ball: Ball, rays: &Rays<S>) -> Option<Meeting<S>> {
-        let lanes = may_meet(simd, ball, rays);
+    fn intersections<S: Simd>(
+        &self,
+        simd: S,
+        bounds: Bounds,
+        rays: &Rays<S>,
+    ) -> Option<Intersection<S>> {
+        let lanes = may_hit(simd, bounds, rays);
         if !lanes.any_true() {
             return None;
         }
@@ -47,7 +52,7 @@ impl LaneShape for Triangle {
             return None;
         }
         let (t, place) = interpolate([u, v, w], determinant, [a, b, c]);
-        Some(Meeting {
+        Some(Intersection {
             lanes: inside,
             t,
             place: Some(place),
@@ -70,12 +75,12 @@ impl LaneShape for Triangle {
     }
 }
 
-/// `Triangle::may_meet`.
+/// `Triangle::may_hit`.
 #[inline(always)]
-fn may_meet<S: Simd>(simd: S, ball: Ball, rays: &Rays<S>) -> Mask<S> {
-    let center = Vec3s::in_every_lane(simd, ball.center);
+fn may_hit<S: Simd>(simd: S, bounds: Bounds, rays: &Rays<S>) -> Mask<S> {
+    let center = Vec3s::in_every_lane(simd, bounds.center);
     let (b, across) = closest_approach(center, rays.origin, rays.direction);
-    across.simd_le(reach(Numbers::splat(simd, ball.radius_squared), b))
+    across.simd_le(reach(Numbers::splat(simd, bounds.radius_squared), b))
 }
 
 /// The core's `Turn`, as the lanes that turn each way.

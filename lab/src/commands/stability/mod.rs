@@ -16,8 +16,8 @@ use report::{Measured, Shown};
 use scanray_host::console::{print, say};
 use scanray_host::failure::Failure;
 use scanray_host::image::{self, Image, ImageFormat};
-use scanray_host::options::whole;
-use scanray_host::output::Place;
+use scanray_host::option_values::whole;
+use scanray_host::output_files::Place;
 
 /// The command line.
 #[derive(Args, Debug)]

@@ -10,9 +10,9 @@ use super::linear::Linear;
 use super::references::{DEPTH, References, SAMPLES_A_SIDE};
 use super::scenes::BothScalars;
 use super::settings::{Sampling, Settings};
-use scanray_host::drawing::Workers;
 use scanray_host::failure::Failure;
 use scanray_host::knobs::Detail;
+use scanray_host::parallel_drawing::Workers;
 use scanray_host::scene_file::SceneSource;
 
 const SIZE: Resolution = Resolution {

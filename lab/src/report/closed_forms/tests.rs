@@ -3,7 +3,7 @@
 use super::*;
 use crate::report::document::Configuration;
 use crate::report::sweep::Sweep;
-use scanray_host::options::ColorName;
+use scanray_host::option_values::ColorName;
 
 /// Measures settings on a scene, and hands over the sweep for more.
 fn measured<R>(form: &ClosedForm, check: impl FnOnce(&Sweep<'_>) -> R) -> R {

@@ -1,7 +1,7 @@
 //! Cases 1 to 28: rays and shapes.
 
-use scanray::shape::{Plane, Sphere, Surface, Triangle};
-use scanray::{MaterialDescription, Object, Ray, Scalar, ScenePools, Tracer, Vec3};
+use scanray::shape::{ObjectInfo, Plane, Sphere, Triangle};
+use scanray::{MaterialDescription, Ray, Scalar, ScenePools, Tracer, Vec3, shape::Object};
 
 use super::cases;
 use super::record::{Record, grey, ray_to, rounded, scaled, unit, vector, widened};
@@ -45,7 +45,7 @@ cases! { Geometry:
 /// Rays of a statistical case.
 const RAYS: u64 = 20_000;
 
-const SURFACE: Surface = Surface {
+const SURFACE: ObjectInfo = ObjectInfo {
     material: 0,
     number: 0,
 };
@@ -227,7 +227,7 @@ fn camera_inside_a_sphere<T: Number>(record: &mut Record) {
             dark += u64::from(!(color.r > T::HALF * T::HALF));
         }
     }
-    record.count("rays that meet nothing", missed, RAYS);
+    record.count("rays that hit nothing", missed, RAYS);
     record.error(
         "t off the far root, relative to the coordinates",
         worst,
@@ -486,7 +486,7 @@ fn plane_at_grazing_angles<T: Number>(record: &mut Record) {
         let n = widened(plane.normal());
         let along = n.cross(random.direction()).normalize();
         let direction = along - n * cosine;
-        // Above the plane, so that the ray meets it.
+        // Above the plane, so that the ray hits it.
         let foot = n * plane.height().to_f64() + along * (scale * random.between(-1.0, 1.0));
         let origin: Vec3<T> = rounded(foot + n * scale);
         let ray = Ray::new(origin, rounded::<T>(direction.normalize()).normalize());
@@ -696,8 +696,8 @@ impl<T: Number> Mesh<T> {
     }
 }
 
-/// How many triangles of meshes rays meet that are aimed at their edges, at weights that are drawn for each:
-/// rays that meet none, rays that meet several, and rays that meet none by the textbook's test.
+/// How many triangles of meshes rays hit that are aimed at their edges, at weights that are drawn for each:
+/// rays that hit none, rays that hit several, and rays that hit none by the textbook's test.
 fn rays_at_meshes<T: Number>(random: &Random, weight: impl Fn() -> f64) -> [u64; 3] {
     let [mut none, mut several, mut none_by_textbook] = [0; 3];
     for _ in 0..100 {
@@ -741,7 +741,7 @@ fn rays_at_the_vertices_of_a_closed_mesh<T: Number>(record: &mut Record) {
 fn double_hits_on_an_edge<T: Number>(record: &mut Record) {
     let random = record.random(123);
     let [_, several, _] = rays_at_meshes::<T>(&random, || random.between(0.0, 1.0));
-    record.count("rays that meet two triangles", several, RAYS);
+    record.count("rays that hit two triangles", several, RAYS);
 }
 
 /// A triangle that no constructor makes.
@@ -936,7 +936,7 @@ fn coincident_objects<T: Number>(record: &mut Record) {
         let tracer = Tracer::new(pools.as_scene());
         let seen = tracer
             .nearest(&ray)
-            .map(|hit| (hit.t, hit.object.surface().number));
+            .map(|hit| (hit.t, hit.object.info().number));
         let color = record.see(&tracer, ray);
         of += 1;
         let first = T::from_f64(4.0);

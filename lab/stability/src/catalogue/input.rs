@@ -4,10 +4,10 @@ use std::hint::black_box;
 
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
 use rayon::prelude::*;
-use scanray::shape::{Plane, Sphere, Surface, Triangle};
+use scanray::shape::{ObjectInfo, Plane, Sphere, Triangle};
 use scanray::{
-    Color, DisplayColor, MaterialDescription, Pool, Ray, Resolution, Scalar, SceneError,
-    ScenePools, Tracer, Vec3,
+    Color, MaterialDescription, Ray, Resolution, Scalar, SceneError, ScenePools, Tracer, Vec3,
+    pools::Pool, render::DisplayColor,
 };
 
 use super::record::{Counts, Effort, Record, Tier, grey, vector};
@@ -254,7 +254,7 @@ fn sign_of_zero<T: Number>(record: &mut Record) {
 }
 
 fn rays_that_are_no_rays<T: Number>(record: &mut Record) {
-    let surface = Surface {
+    let surface = ObjectInfo {
         material: 0,
         number: 0,
     };

@@ -2,12 +2,15 @@
 
 use embedded_graphics::pixelcolor::Rgb888;
 use scanray::{
-    Color, DisplayColor, Object, Observer, Ray, RayCount, RayKind, Scalar, Tracer, Vec3,
+    Color, Ray, Scalar, Tracer, Vec3,
+    render::DisplayColor,
+    shape::Object,
+    tracer::{Observer, RayCount, RayKind},
 };
 use serde::Serialize;
 
 use crate::Number;
-use crate::clear_misses::ClearMisses;
+use crate::quick_reject::ClearMisses;
 use crate::random::Random;
 use crate::scenes::Model;
 use crate::settled::{View, level_distance, levels, settled_through};
@@ -233,9 +236,9 @@ impl Record {
     }
 
     /// The colours of a tracer's picture; what must hold of every pixel is looked after.
-    pub(super) fn draw<T: Scalar, const NEEDS: u64, const STACK: usize>(
+    pub(super) fn draw<T: Scalar, const STAGES: u64, const STACK: usize>(
         &mut self,
-        tracer: &Tracer<'_, T, NEEDS, STACK>,
+        tracer: &Tracer<'_, T, STAGES, STACK>,
     ) -> Colors<T> {
         let size = tracer.resolution();
         let mut colors = Vec::new();
@@ -253,22 +256,22 @@ impl Record {
     }
 
     /// The colour that a ray sees, looked after.
-    pub(super) fn see<T: Scalar, const NEEDS: u64, const STACK: usize>(
+    pub(super) fn see<T: Scalar, const STAGES: u64, const STACK: usize>(
         &mut self,
-        tracer: &Tracer<'_, T, NEEDS, STACK>,
+        tracer: &Tracer<'_, T, STAGES, STACK>,
         ray: Ray<T>,
     ) -> Color<T> {
         let mut rays = Watch::default();
-        let color = tracer.radiance_observed(ray, scanray::ObjectSet::ALL, &mut rays);
+        let color = tracer.radiance_observed(ray, scanray::accel::ObjectSet::ALL, &mut rays);
         self.watch(tracer, color, rays);
         self.cut_off(tracer, ray, color);
         color
     }
 
     /// A pixel, looked after and watched by somebody else, too.
-    pub(super) fn pixel_watched<T: Scalar, const NEEDS: u64, const STACK: usize>(
+    pub(super) fn pixel_watched<T: Scalar, const STAGES: u64, const STACK: usize>(
         &mut self,
-        tracer: &Tracer<'_, T, NEEDS, STACK>,
+        tracer: &Tracer<'_, T, STAGES, STACK>,
         (x, y): (u16, u16),
         observer: &mut impl Observer<T>,
     ) -> Color<T> {
@@ -277,9 +280,9 @@ impl Record {
         color
     }
 
-    fn watch<T: Scalar, const NEEDS: u64, const STACK: usize>(
+    fn watch<T: Scalar, const STAGES: u64, const STACK: usize>(
         &mut self,
-        tracer: &Tracer<'_, T, NEEDS, STACK>,
+        tracer: &Tracer<'_, T, STAGES, STACK>,
         color: Color<T>,
         rays: Watch,
     ) {
@@ -291,9 +294,9 @@ impl Record {
 
     /// Traces a ray without the rays that hardly show: it sees no more than this colour, and at most one
     /// level of 8 bits less.
-    fn cut_off<T: Scalar, const NEEDS: u64, const STACK: usize>(
+    fn cut_off<T: Scalar, const STAGES: u64, const STACK: usize>(
         &mut self,
-        tracer: &Tracer<'_, T, NEEDS, STACK>,
+        tracer: &Tracer<'_, T, STAGES, STACK>,
         ray: Ray<T>,
         color: Color<T>,
     ) {

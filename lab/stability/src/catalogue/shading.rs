@@ -1,8 +1,9 @@
 //! Cases 29 to 52: local colour, shadows, where secondary rays start, reflection and refraction.
 
 use scanray::{
-    Background, Color, Light, MaterialDescription, Observer, Ray, RayKind, Resolution, Scalar,
-    ScenePools, Tracer, Vec3, WorkCount,
+    Background, Color, Light, MaterialDescription, Ray, Resolution, Scalar, ScenePools, Tracer,
+    Vec3,
+    tracer::{Observer, RayKind, WorkCount},
 };
 
 use super::cases;
@@ -182,7 +183,7 @@ fn plane_shadows_itself<T: Number>(record: &mut Record) {
 }
 
 /// Leaks through the shell between two spheres: rays that come from outside through an invisible outer
-/// sphere and do not meet the inner one, and places of the inner sphere that a light outside reaches
+/// sphere and do not hit the inner one, and places of the inner sphere that a light outside reaches
 /// through an opaque outer one.
 fn shell<T: Number>(record: &mut Record, seed: u64, thickness: f64) {
     let random = record.random(seed);
@@ -839,7 +840,7 @@ fn diamond_beyond_the_critical_angle<T: Number>(record: &mut Record) {
         }
         rays += 1;
         let mut work = WorkCount::default();
-        let color = tracer.radiance_observed(ray, scanray::ObjectSet::ALL, &mut work);
+        let color = tracer.radiance_observed(ray, scanray::accel::ObjectSet::ALL, &mut work);
         refracted += u64::from(work.refracted_rays != 0 || !is_black(color));
     }
     record.count("refracted rays", refracted, rays);
@@ -966,7 +967,7 @@ fn power<T: Number>(base: T, exponent: f64) -> T {
     let whole = exponent as u32;
     let is_squared = f64::from(whole) == exponent && whole <= u32::from(T::MAX_SQUARED_EXPONENT);
     if is_squared {
-        scanray::formula::shading::power(scanray::Real(base), whole as u16).0
+        scanray::formula::shading::power(scanray::real::Real(base), whole as u16).0
     } else {
         base.powf(T::from_f64(exponent))
     }

@@ -1,4 +1,4 @@
-//! A test of balls in integers that finds most misses where floats are emulated.
+//! A test of spheres in integers that finds most misses where floats are emulated.
 //!
 //! On such a core the exact test of a sphere takes more than a thousand instructions, and most rays miss; the clear
 //! misses are found here in less than a hundred. Only rays that the exact tests would find to miss are told of, so
@@ -13,14 +13,14 @@ use crate::vec3::Vec3;
 /// Bits behind the point of the components of a direction.
 const DIRECTION_BITS: usize = 15;
 
-/// The unit of length is 2⁻¹² of a power of two that bounds a ball's coordinates and diameter.
-const BALL_BITS: i32 = 12;
+/// The unit of length is 2⁻¹² of a power of two that bounds a sphere's coordinates and diameter.
+const BOUND_BITS: i32 = 12;
 
 /// Origins of rays are less than 2¹⁴ units from 0 along each axis.
 const ORIGIN_BITS: i32 = 14;
 
-/// Where a ball is, as seen along a ray: in whole units, none off by more than the margin of `reach_squared`.
-pub(super) struct Sighting {
+/// Where a sphere is, as seen along a ray: in whole units, none off by more than the margin of `reach_squared`.
+pub(super) struct QuickReject {
     /// Distance of the centre along the ray.
     along: Wrapping<i32>,
     /// Square of the distance of the centre from the ray's line.
@@ -29,9 +29,9 @@ pub(super) struct Sighting {
     reach_squared: Wrapping<i32>,
 }
 
-impl Sighting {
+impl QuickReject {
     /// `None` where lengths of very different scales meet, and in `f64`. `offset` is the
-    /// [origin offset](crate::ray::origin_offset) of what is in the ball.
+    /// [origin offset](crate::ray::origin_offset) of what is in the sphere.
     ///
     /// The unit `q` is a power of 2. As `offset ≥ 2⁻²²(Σ|cᵢ| + 2r)`, its exponent gives one with
     /// `Σ|cᵢ| + 2r < 2¹²q`. With `|oᵢ| < 2¹⁴q` the vector `f` from the origin to the centre is shorter than 35,500,
@@ -42,7 +42,7 @@ impl Sighting {
     /// another √3 of the vector across. So the distance `l` of the centre from the line is off by less than 5.4 and the
     /// distance `b` along it by less than 4.7. Where rounding made the direction too long, `b` and `l` are too large by
     /// 2⁻¹³, at most 0.3 of what matters; where it is too short, they are too small, and so is what the exact tests take for `b`,
-    /// while their `l` is larger. These see hits up to `8u(|f| + r) < 0.04` beyond the ball. Together
+    /// while their `l` is larger. These see hits up to `8u(|f| + r) < 0.04` beyond the sphere. Together
     /// that is less than 6, and `(r + 7)² = r² + 14r + 49 < r² + r²/32 + 2048`.
     #[inline(always)]
     pub(super) fn of<T: Scalar>(
@@ -56,7 +56,7 @@ impl Sighting {
         }
         let [dx, dy, dz] = fixed(ray.direction, -(DIRECTION_BITS as i32));
         let length = dx * dx + dy * dy + dz * dz;
-        let unit = exponent(offset) - exponent(T::EPSILON) - BALL_BITS;
+        let unit = exponent(offset) - exponent(T::EPSILON) - BOUND_BITS;
         let o = ray.origin;
         let limit = unit + ORIGIN_BITS;
         if length.0 as u32 > (1 << 30) + (1 << 17)
@@ -80,14 +80,14 @@ impl Sighting {
         })
     }
 
-    /// The line passes the ball at a distance, or all of the ball lies behind the origin.
+    /// The line passes the sphere at a distance, or all of the sphere lies behind the origin.
     #[inline(always)]
     pub(super) fn is_clear_miss(&self) -> bool {
         self.across_squared > self.reach_squared
             || (self.along.0 < 0 && self.along * self.along > self.reach_squared)
     }
 
-    /// Besides that, the origin is outside of the ball and the ray leads away from its centre.
+    /// Besides that, the origin is outside of the sphere and the ray leads away from its centre.
     #[inline(always)]
     pub(super) fn is_clear_miss_of_surface(&self) -> bool {
         self.across_squared > self.reach_squared

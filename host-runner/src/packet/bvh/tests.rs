@@ -1,4 +1,4 @@
-//! That the trees in other layouts have the objects of the scene's own, and that pictures by them are those of
+//! That the hierarchies in other layouts have the objects of the scene's own, and that pictures by them are those of
 //! brute force, to the bit.
 
 use scanray::accel::{Accel, BvhNode, NodeContent};
@@ -7,15 +7,15 @@ use scanray::{
     Vec3,
 };
 
-use super::wide::{WideChild, WideLeaf, WidePart, WideTree};
-use super::{PacketTree, PairTree};
+use super::wide::{WideBvh, WideChild, WideLeaf, WidePart};
+use super::{PacketBvh, PairBvh};
 use crate::packet::PacketTracer;
 use crate::packet::tests::{Random, STACK, assert_same_as};
 
 type Pools = ScenePools<f32, 1024, 1, 0, 1025, 2, 0, 1024>;
 
 /// Compares pictures of a crowd of spheres, seen from where most of it is in view, with those by brute force.
-fn compare(name: &str, random: &Random, spheres: &[(Vec3, f32)], is_tree_expected: bool) {
+fn compare(name: &str, random: &Random, spheres: &[(Vec3, f32)], is_bvh_expected: bool) {
     let mut pools = Box::new(Pools::new());
     let mut filling = Pools::as_mut(&mut pools);
     let extent = spheres.iter().fold(1e-30_f32, |extent, (center, radius)| {
@@ -59,8 +59,8 @@ fn compare(name: &str, random: &Random, spheres: &[(Vec3, f32)], is_tree_expecte
     }
     pools.prepare();
     let scene = pools.as_scene();
-    assert_eq!(scene.accel().bvh().is_some(), is_tree_expected, "{name}");
-    if is_tree_expected {
+    assert_eq!(scene.accel().bvh().is_some(), is_bvh_expected, "{name}");
+    if is_bvh_expected {
         check_layouts(name, scene);
     }
     let by_brute_force = scene.without_accel();
@@ -71,12 +71,12 @@ fn compare(name: &str, random: &Random, spheres: &[(Vec3, f32)], is_tree_expecte
     assert_same_as(name, scene, by_brute_force, resolution, 3);
 }
 
-/// Every sphere is in one leaf of each layout, and a pair and its part of the wide tree have the same spheres.
+/// Every sphere is in one leaf of each layout, and a pair and its part of the wide hierarchy have the same spheres.
 fn check_layouts(name: &str, scene: Scene<'_>) {
     let tracer = Tracer::new(scene).with_bvh().with_stack::<STACK>();
     let packets = PacketTracer::new(tracer);
-    let tree = PacketTree::new(&packets, 0).expect("the builder's leaves are small");
-    let wide = tree.wide.as_ref().expect("a walk has room for this tree");
+    let bvh = PacketBvh::new(&packets, 0).expect("the builder's leaves are small");
+    let wide = bvh.wide.as_ref().expect("a walk has room for this bvh");
     let mut all = spheres_of_part(
         wide,
         WidePart {
@@ -88,8 +88,8 @@ fn check_layouts(name: &str, scene: Scene<'_>) {
     // Indices count through the spheres first, whatever the order of the text.
     let expected: Vec<u32> = (0..scene.spheres().len() as u32).collect();
     assert_eq!(all, expected, "{name}");
-    for (index, pair) in tree.pairs.nodes.iter().enumerate() {
-        let mut spheres = spheres_of_pair(&tree.pairs, index);
+    for (index, pair) in bvh.pairs.nodes.iter().enumerate() {
+        let mut spheres = spheres_of_pair(&bvh.pairs, index);
         let mut of_part = spheres_of_part(wide, pair.wide);
         spheres.sort_unstable();
         of_part.sort_unstable();
@@ -104,16 +104,16 @@ fn check_layouts(name: &str, scene: Scene<'_>) {
     }
 }
 
-fn spheres_of_pair(tree: &PairTree<'_>, index: usize) -> Vec<u32> {
+fn spheres_of_pair(bvh: &PairBvh<'_>, index: usize) -> Vec<u32> {
     let mut spheres = Vec::new();
-    let mut waiting = vec![index as u32];
-    while let Some(index) = waiting.pop() {
-        let pair = &tree.nodes[index as usize];
+    let mut pending = vec![index as u32];
+    while let Some(index) = pending.pop() {
+        let pair = &bvh.nodes[index as usize];
         for (first, count) in pair.first.into_iter().zip(pair.count) {
             match count {
-                0 => waiting.push(first),
+                0 => pending.push(first),
                 _ => {
-                    let leaf = &tree.leaves[first as usize..][..usize::from(count)];
+                    let leaf = &bvh.leaves[first as usize..][..usize::from(count)];
                     spheres.extend(leaf.iter().map(|object| object.index));
                 }
             }
@@ -122,11 +122,11 @@ fn spheres_of_pair(tree: &PairTree<'_>, index: usize) -> Vec<u32> {
     spheres
 }
 
-fn spheres_of_part(tree: &WideTree, part: WidePart) -> Vec<u32> {
+fn spheres_of_part(bvh: &WideBvh, part: WidePart) -> Vec<u32> {
     let mut spheres = Vec::new();
-    let mut waiting = vec![part];
-    while let Some(WidePart { node, children }) = waiting.pop() {
-        let node = &tree.nodes[node as usize];
+    let mut pending = vec![part];
+    while let Some(WidePart { node, children }) = pending.pop() {
+        let node = &bvh.nodes[node as usize];
         for lane in 0..8 {
             let is_there = node.bounds[0][0][lane] <= node.bounds[0][1][lane];
             if children >> lane & 1 == 0 || !is_there {
@@ -139,12 +139,12 @@ fn spheres_of_part(tree: &WideTree, part: WidePart) -> Vec<u32> {
                         radius_squared,
                         index,
                         ..
-                    } = &tree.leaves[leaf];
+                    } = &bvh.leaves[leaf];
                     let there = radius_squared.map(|square| square > f32::NEG_INFINITY);
                     let there = index.iter().zip(there).filter(|(_, there)| *there);
                     spheres.extend(there.map(|(index, _)| index));
                 }
-                None => waiting.push(WidePart {
+                None => pending.push(WidePart {
                     node: child.0,
                     children: u8::MAX,
                 }),
@@ -191,7 +191,7 @@ fn pictures_of_stiff_crowds_are_those_of_brute_force() {
     let random = Random::new(7);
     let one_place = vec![(Vec3::new(1.0, 2.0, 3.0), 1.0); 700];
     compare("all in one place", &random, &one_place, true);
-    // Each half as large as the one before and half as far away: a tree as deep as there can be.
+    // Each half as large as the one before and half as far away: a hierarchy as deep as there can be.
     let halved = |i: i32| 2.0_f32.powi(-i);
     let series: Vec<_> = (-40..60)
         .map(|i| (Vec3::new(0.0, 0.0, 3.0 * halved(i)), halved(i)))
@@ -199,7 +199,7 @@ fn pictures_of_stiff_crowds_are_those_of_brute_force() {
     compare("halved", &random, &series, true);
     let many: Vec<_> = series.iter().cycle().take(1000).copied().collect();
     compare("halved, ten times", &random, &many, true);
-    // Away from the camera, so that depth in the tree is depth in the picture.
+    // Away from the camera, so that depth in the hierarchy is depth in the picture.
     let away: Vec<_> = (0..60)
         .map(|i| (Vec3::new(0.0, 0.0, halved(-i)), 0.3 * halved(-i)))
         .collect();
@@ -214,9 +214,9 @@ fn pictures_of_stiff_crowds_are_those_of_brute_force() {
     compare("touching in a row", &random, &line, true);
 }
 
-/// A tree that the scene's builder would not make is left to the core.
+/// A hierarchy that the scene's builder would not make is left to the core.
 #[test]
-fn a_tree_of_large_leaves_is_left_to_the_core() {
+fn a_bvh_of_large_leaves_is_left_to_the_core() {
     let mut pools = Box::new(Pools::new());
     let mut filling = Pools::as_mut(&mut pools);
     filling.set_ambient(1.0);
@@ -237,7 +237,7 @@ fn a_tree_of_large_leaves_is_left_to_the_core() {
     let nodes = [BvhNode::new(Vec3::splat(-9.0), Vec3::splat(9.0), all)];
     let by_leaf = scene.with_accel(Accel::from_parts(&[], &[], &nodes, &entries));
     let tracer = Tracer::new(by_leaf).with_bvh().with_stack::<STACK>();
-    assert!(PacketTracer::new(tracer).tree.is_none());
+    assert!(PacketTracer::new(tracer).bvh.is_none());
     let resolution = Resolution {
         width: 40,
         height: 9,

@@ -15,8 +15,8 @@ use std::ops::Range;
 use scanray::{Resolution, Scalar, Scene};
 use sha2::{Digest, Sha256};
 
-use crate::options::Size;
-use crate::picture_args::PictureSettings;
+use crate::option_values::Size;
+use crate::render_settings::PictureSettings;
 
 /// The first word.
 const MARK: &str = "scanray-part";

@@ -220,7 +220,7 @@ macro_rules! with_color {
     };
     (@match $name:expr, $color:ident, $body:expr; $($variant:ident = $type:ident),*) => {
         match $name {$(
-            $crate::options::ColorName::$variant => {
+            $crate::option_values::ColorName::$variant => {
                 type $color = $crate::pixelcolor::$type;
                 $body
             }

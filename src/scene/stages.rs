@@ -5,11 +5,11 @@ use crate::accel::ObjectSet;
 use crate::stages::Stages;
 
 // Trait methods are not const, so this is written out once per scalar.
-macro_rules! needs_of_scene {
+macro_rules! stages_of_scene {
     ($scalar:ty) => {
         impl Scene<'_, $scalar> {
             /// The stages this scene needs; found at compile time for a `static` scene.
-            pub const fn needs(&self) -> Stages {
+            pub const fn stages(&self) -> Stages {
                 let objects = self.geometry.count();
                 let mut needs = self
                     .geometry
@@ -69,5 +69,5 @@ macro_rules! needs_of_scene {
     };
 }
 
-needs_of_scene!(f32);
-needs_of_scene!(f64);
+stages_of_scene!(f32);
+stages_of_scene!(f64);

@@ -3,7 +3,7 @@
 use std::fmt::{self, Display};
 use std::io::{self, Write};
 
-use scanray::{Color, MaterialDescription, Object, Scalar, Scene, Vec3};
+use scanray::{Color, MaterialDescription, Scalar, Scene, Vec3, shape::Object};
 
 /// Writes the listing: settings with six decimals, objects in the order of the file with two.
 ///
@@ -60,7 +60,7 @@ pub(crate) fn write<T: Scalar>(out: &mut dyn Write, scene: &Scene<'_, T>) -> io:
             // The paper has no layout for others.
             other => write!(out, "{:?}", other.shape())?,
         }
-        write_material(out, &scene.material(object.surface()))?;
+        write_material(out, &scene.material(object.info()))?;
     }
     Ok(())
 }

@@ -1,12 +1,12 @@
 //! What decides the picture of a scene, for every command that draws one.
 
 use clap::{ArgAction, Args};
-use scanray::{DEFAULT_MAX_DEPTH, DisplayColor, Resolution};
+use scanray::{DEFAULT_MAX_DEPTH, Resolution, render::DisplayColor};
 
 use crate::displays::{Display, DisplayChoice};
 use crate::failure::Failure;
 use crate::knobs::{CutoffChoice, Detail, Knobs, SampleCount, fraction};
-use crate::options::{ColorName, ScalarName, Size, max_depth, name_of, with_color};
+use crate::option_values::{ColorName, ScalarName, Size, max_depth, name_of, with_color};
 
 /// The options of the command line.
 #[derive(Args, Debug)]
@@ -182,7 +182,7 @@ impl PictureSettings {
 
     /// All that decides the pixels beside scene and size, name and value, for [`PartRecord`]s.
     ///
-    /// [`PartRecord`]: crate::part::PartRecord
+    /// [`PartRecord`]: crate::picture_part::PartRecord
     pub(crate) fn record(&self) -> Vec<(String, String)> {
         // Naming every field keeps a new one from being forgotten.
         let Self {

@@ -1,7 +1,7 @@
-//! Eight rays through the tree of a large scene: `Walk` of the core and what the core's tracer does with it.
+//! Eight rays through the hierarchy of a large scene: `Walk` of the core and what the core's tracer does with it.
 //!
-//! A box is visited if any of the rays may meet it, so that each ray is offered more than the core
-//! offers it; what it meets is the same. Far down in a tree of many spheres the rays part: those that are
+//! A box is visited if any of the rays may hit it, so that each ray is offered more than the core
+//! offers it; what it hits is the same. Far down in a hierarchy of many spheres the rays part: those that are
 //! nearly alone in a subtree leave the vector and go on one by one ([`single`]), through the same subtree in
 //! another layout ([`wide`]).
 
@@ -12,30 +12,30 @@ mod wide;
 
 use fearless_simd::prelude::*;
 use scanray::accel::{Bvh, BvhNode, NodeContent};
-use scanray::{Number, Vec3};
+use scanray::{Vec3, number::Number};
 
+pub(super) use self::single::PendingParts;
 use self::single::Single;
-pub(super) use self::single::WaitingParts;
-use self::wide::{WidePart, WideTree};
+use self::wide::{WideBvh, WidePart};
 use super::batch::{Batch, Group, NOTHING};
 use super::lanes::{InLanes, Indices, LANES, Mask, Numbers, Rays, Vec3s, first_lanes};
 use super::shade::{TowardLight, hits};
 use super::shapes::LeafObject;
 use super::{Closest, PacketTracer};
 
-/// The tree of a scene in other layouts.
+/// The hierarchy of a scene in other layouts.
 #[derive(Debug)]
-pub(super) struct PacketTree<'a> {
-    pairs: PairTree<'a>,
+pub(super) struct PacketBvh<'a> {
+    pairs: PairBvh<'a>,
     /// For single rays, if there are many spheres and nothing else: other objects are tested one at a time, by eight
     /// rays sooner than by one.
-    wide: Option<WideTree>,
+    wide: Option<WideBvh>,
 }
 
 /// For eight rays: a node has the boxes of its children, so that two are tested at once, subtrees are in one place,
 /// and leaves have with them what the tests of objects begin with.
 #[derive(Debug, Default)]
-struct PairTree<'a> {
+struct PairBvh<'a> {
     /// Index and count of the root, as of the halves of a pair.
     root: (u32, u8),
     nodes: Vec<Pair>,
@@ -58,37 +58,37 @@ struct Pair {
     wide: WidePart,
 }
 
-/// So many rays of a vector do not go on together where there is a tree for single ones.
+/// So many rays of a vector do not go on together where there is a hierarchy for single ones.
 const FEW: u32 = 3;
 
-/// In a tree of fewer spheres the rays of a vector had better stay together.
+/// In a hierarchy of fewer spheres the rays of a vector had better stay together.
 pub(super) const FEWEST_FOR_SINGLES: usize = 4096;
 
-impl<'a> PacketTree<'a> {
-    /// Whether single rays have a tree of their own.
+impl<'a> PacketBvh<'a> {
+    /// Whether single rays have a hierarchy of their own.
     pub(super) fn has_singles(&self) -> bool {
         self.wide.is_some()
     }
 
-    /// The tree of a scene that has one; nothing if there are leaves of more objects than a vector has lanes,
-    /// which the scene's own builder does not make. Single rays have a tree if there are `fewest_for_singles`
+    /// The hierarchy of a scene that has one; nothing if there are leaves of more objects than a vector has lanes,
+    /// which the scene's own builder does not make. Single rays have a hierarchy if there are `fewest_for_singles`
     /// spheres.
     pub(super) fn new<const STACK: usize>(
         packets: &PacketTracer<'a, STACK>,
         fewest_for_singles: usize,
     ) -> Option<Self> {
-        let tree = packets.tracer.scene().accel().bvh();
+        let bvh = packets.tracer.scene().accel().bvh();
         let is_small = |node: &BvhNode| match node.content() {
             NodeContent::Leaf { count, .. } => count as usize <= LANES,
             NodeContent::Inner { .. } => true,
         };
-        if !tree.is_some() || !tree.nodes.iter().all(is_small) {
+        if !bvh.is_some() || !bvh.nodes.iter().all(is_small) {
             return None;
         }
-        let (mut pairs, pair_of) = PairTree::new(packets, tree);
-        let spheres = packets.shapes.balls_alone();
+        let (mut pairs, pair_of) = PairBvh::new(packets, bvh);
+        let spheres = packets.shapes.spheres_alone();
         let wide = (spheres > 0 && spheres >= fewest_for_singles)
-            .then(|| WideTree::new(tree, &mut pairs, &pair_of));
+            .then(|| WideBvh::new(bvh, &mut pairs, &pair_of));
         Some(Self {
             pairs,
             wide: wide.flatten(),
@@ -96,22 +96,22 @@ impl<'a> PacketTree<'a> {
     }
 }
 
-impl<'a> PairTree<'a> {
-    /// The tree in this layout, and for each of its nodes the index of the pair or of the first object of the
+impl<'a> PairBvh<'a> {
+    /// The hierarchy in this layout, and for each of its nodes the index of the pair or of the first object of the
     /// leaf.
     fn new<const STACK: usize>(
         packets: &PacketTracer<'a, STACK>,
-        tree: Bvh<'_>,
+        bvh: Bvh<'_>,
     ) -> (Self, Vec<u32>) {
         let mut new = Self::default();
-        let mut place_of = vec![0; tree.nodes.len()];
-        // Nodes of the tree whose place in a pair is to be filled in, depth first.
-        let mut waiting = vec![(0, None)];
-        while let Some((node, place)) = waiting.pop() {
-            let (first, count) = match tree.nodes[node].content() {
+        let mut place_of = vec![0; bvh.nodes.len()];
+        // Nodes of the hierarchy whose place in a pair is to be filled in, depth first.
+        let mut pending = vec![(0, None)];
+        while let Some((node, place)) = pending.pop() {
+            let (first, count) = match bvh.nodes[node].content() {
                 NodeContent::Leaf { first, count } => {
                     let start = new.leaves.len() as u32;
-                    let entries = &tree.entries[first as usize..][..count as usize];
+                    let entries = &bvh.entries[first as usize..][..count as usize];
                     new.leaves.extend(entries.iter().map(|entry| {
                         let target = &packets.objects[*entry as usize];
                         LeafObject::new(target.object, *entry, target.casts_shadow)
@@ -119,7 +119,7 @@ impl<'a> PairTree<'a> {
                     (start, count as u8)
                 }
                 NodeContent::Inner { first, axis } => {
-                    let children = [first, first + 1].map(|child| &tree.nodes[child as usize]);
+                    let children = [first, first + 1].map(|child| &bvh.nodes[child as usize]);
                     let index = new.nodes.len();
                     new.nodes.push(Pair {
                         low: children.map(|child| child.low()),
@@ -129,8 +129,8 @@ impl<'a> PairTree<'a> {
                         axis: axis as u8,
                         wide: WidePart::default(),
                     });
-                    waiting.push((first as usize + 1, Some((index, 1))));
-                    waiting.push((first as usize, Some((index, 0))));
+                    pending.push((first as usize + 1, Some((index, 1))));
+                    pending.push((first as usize, Some((index, 0))));
                     (index as u32, 0)
                 }
             };
@@ -147,25 +147,25 @@ impl<'a> PairTree<'a> {
     }
 }
 
-/// A walk of eight rays through a tree.
+/// A walk of eight rays through a hierarchy.
 struct Walk<'a, S: Simd> {
-    tree: &'a PacketTree<'a>,
+    bvh: &'a PacketBvh<'a>,
     inverse: Vec3s<S>,
     /// The origins, moved by the margin for the rays, to compare with the lowest and the highest
     /// coordinates of boxes.
     low: Vec3s<S>,
     high: Vec3s<S>,
     leading: Leading<S>,
-    /// Whether most rays meet the upper one of two nodes first, by axis.
+    /// Whether most rays hit the upper one of two nodes first, by axis.
     upper_first: [usize; 3],
     /// What is still to be visited, the next one last.
-    waiting: [Waiting; Bvh::<f32>::MAX_DEPTH + 1],
+    pending: [Pending; Bvh::<f32>::MAX_DEPTH + 1],
     len: usize,
 }
 
-/// A pair or a leaf, and the rays that may meet something in it, a bit for each.
+/// A pair or a leaf, and the rays that may hit something in it, a bit for each.
 #[derive(Clone, Copy)]
-struct Waiting {
+struct Pending {
     first: u32,
     /// Objects of a leaf; 0 for a pair.
     count: u8,
@@ -174,10 +174,10 @@ struct Waiting {
 
 /// Where a walk comes to.
 enum Visit<'a> {
-    /// Objects that some of the rays may meet.
+    /// Objects that some of the rays may hit.
     Leaf(&'a [LeafObject<'a>]),
-    /// A part of the tree that only a few of the rays may meet, a bit for each.
-    Few(&'a WideTree, WidePart, u8),
+    /// A part of the hierarchy that only a few of the rays may hit, a bit for each.
+    Few(&'a WideBvh, WidePart, u8),
 }
 
 /// The axis of the largest component of each direction.
@@ -191,7 +191,7 @@ enum Leading<S: Simd> {
 
 impl<'a, S: Simd> Walk<'a, S> {
     #[inline(always)]
-    fn new(tree: &'a PacketTree<'a>, rays: &Rays<S>, active: Mask<S>) -> Self {
+    fn new(bvh: &'a PacketBvh<'a>, rays: &Rays<S>, active: Mask<S>) -> Self {
         let (o, d) = (rays.origin, rays.direction);
         let one = d.x.constant(1.0);
         let size = o.abs();
@@ -215,7 +215,7 @@ impl<'a, S: Simd> Walk<'a, S> {
             Leading::Mixed(x, y)
         };
         Self {
-            tree,
+            bvh,
             inverse: Vec3s::new(one / d.x, one / d.y, one / d.z),
             low: o + margin,
             high: o - margin,
@@ -225,17 +225,17 @@ impl<'a, S: Simd> Walk<'a, S> {
                 most(d.y.simd_lt(0.0)),
                 most(d.z.simd_lt(0.0)),
             ],
-            waiting: [Waiting {
-                first: tree.pairs.root.0,
-                count: tree.pairs.root.1,
+            pending: [Pending {
+                first: bvh.pairs.root.0,
+                count: bvh.pairs.root.1,
                 rays: active.to_bitmask() as u8,
             }; Bvh::<f32>::MAX_DEPTH + 1],
             len: 1,
         }
     }
 
-    /// The next place with objects that one of the rays of a mask may meet at `t ≤ t_max`. `SINGLES`: whether there is
-    /// a tree for single rays.
+    /// The next place with objects that one of the rays of a mask may hit at `t ≤ t_max`. `SINGLES`: whether there is
+    /// a hierarchy for single rays.
     #[inline(always)]
     fn next<const SINGLES: bool>(
         &mut self,
@@ -243,26 +243,26 @@ impl<'a, S: Simd> Walk<'a, S> {
         t_max: Numbers<S>,
         active: Mask<S>,
     ) -> Option<Visit<'a>> {
-        let pairs = &self.tree.pairs;
+        let pairs = &self.bvh.pairs;
         while self.len > 0 {
             self.len -= 1;
-            let Waiting {
+            let Pending {
                 mut first,
                 mut count,
                 mut rays,
-            } = self.waiting[self.len];
+            } = self.pending[self.len];
             while count == 0 {
                 let pair = &pairs.nodes[first as usize];
                 if SINGLES
-                    && let Some(wide) = &self.tree.wide
+                    && let Some(wide) = &self.bvh.wide
                     && rays.count_ones() <= FEW
                 {
                     rays &= active.to_bitmask() as u8;
                     return Some(Visit::Few(wide, pair.wide, rays));
                 }
-                let lower = self.may_meet(simd, pair.low[0], pair.high[0], t_max) & active;
-                let upper = self.may_meet(simd, pair.low[1], pair.high[1], t_max) & active;
-                let met = |half: usize| [lower, upper][half].to_bitmask() as u8;
+                let lower = self.may_hit(simd, pair.low[0], pair.high[0], t_max) & active;
+                let upper = self.may_hit(simd, pair.low[1], pair.high[1], t_max) & active;
+                let hit = |half: usize| [lower, upper][half].to_bitmask() as u8;
                 let half = match (lower.any_true(), upper.any_true()) {
                     (false, false) => break,
                     (true, false) => 0,
@@ -270,10 +270,10 @@ impl<'a, S: Simd> Walk<'a, S> {
                     (true, true) => {
                         let near = self.upper_first[usize::from(pair.axis)];
                         let far = near ^ 1;
-                        self.waiting[self.len] = Waiting {
+                        self.pending[self.len] = Pending {
                             first: pair.first[far],
                             count: pair.count[far],
-                            rays: if SINGLES { met(far) } else { 0 },
+                            rays: if SINGLES { hit(far) } else { 0 },
                         };
                         self.len += 1;
                         near
@@ -281,7 +281,7 @@ impl<'a, S: Simd> Walk<'a, S> {
                 };
                 (first, count) = (pair.first[half], pair.count[half]);
                 if SINGLES {
-                    rays = met(half);
+                    rays = hit(half);
                 }
             }
             if count > 0 {
@@ -292,10 +292,10 @@ impl<'a, S: Simd> Walk<'a, S> {
         None
     }
 
-    /// The rays that may meet something in a box.
+    /// The rays that may hit something in a box.
     #[inline(always)]
-    fn may_meet(&self, simd: S, low: Vec3, high: Vec3, t_max: Numbers<S>) -> Mask<S> {
-        // Which of two numbers a NaN gives does not matter: its ray meets nothing.
+    fn may_hit(&self, simd: S, low: Vec3, high: Vec3, t_max: Numbers<S>) -> Mask<S> {
+        // Which of two numbers a NaN gives does not matter: its ray hits nothing.
         let slab = |low: f32, high: f32, from: Numbers<S>, to: Numbers<S>, inverse: Numbers<S>| {
             let a = (Numbers::splat(simd, low) - from) * inverse;
             let b = (Numbers::splat(simd, high) - to) * inverse;
@@ -331,20 +331,20 @@ fn bits(mut mask: u8) -> impl Iterator<Item = usize> {
 }
 
 impl<S: Simd> Closest<S> {
-    /// Takes what some rays meet that go on one by one, if that comes first.
+    /// Takes what some rays hit that go on one by one, if that comes first.
     #[inline(always)]
     fn offer_singly<'w>(
         &mut self,
         simd: S,
         lanes: u8,
         single: impl Fn(usize) -> Single<'w>,
-        waiting: &mut WaitingParts,
+        pending: &mut PendingParts,
     ) {
         let mut t = self.t.to_array();
         let mut object: [u32; LANES] = self.object.into();
         for lane in bits(lanes) {
             let known = (t[lane], object[lane]);
-            (t[lane], object[lane]) = single(lane).nearest(simd, waiting, known);
+            (t[lane], object[lane]) = single(lane).nearest(simd, pending, known);
         }
         self.t = Numbers::from_array(simd, t);
         self.object = Indices::simd_from(simd, object);
@@ -352,11 +352,11 @@ impl<S: Simd> Closest<S> {
 }
 
 impl<const STACK: usize> PacketTracer<'_, STACK> {
-    /// `meet`, for rays that may leave any sides. `Tracer::closest_in_bvh`.
-    pub(super) fn meet_by_tree<S: Simd, const SINGLES: bool>(
+    /// `hit`, for rays that may leave any sides. `Tracer::closest_in_bvh`.
+    pub(super) fn hit_by_bvh<S: Simd, const SINGLES: bool>(
         &self,
         simd: S,
-        tree: &PacketTree<'_>,
+        bvh: &PacketBvh<'_>,
         batch: &mut Batch,
         at: usize,
     ) -> usize {
@@ -371,20 +371,19 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                 let active = first_lanes(simd, count);
                 let leaves = Indices::from_slice(simd, &batch.leaves[at..at + LANES]) >> 1;
                 let mut closest = Closest::none(simd);
-                self.shapes
-                    .meet_unbounded(simd, &rays, leaves, &mut closest);
-                let mut walk = Walk::new(tree, &rays, active);
+                self.shapes.hit_unbounded(simd, &rays, leaves, &mut closest);
+                let mut walk = Walk::new(bvh, &rays, active);
                 while let Some(visit) = walk.next::<SINGLES>(simd, closest.t, active) {
                     let objects = match visit {
                         Visit::Leaf(objects) => objects,
                         Visit::Few(wide, part, lanes) => {
                             let single = |lane| Single::new(&walk, &rays, lane, wide, part);
-                            closest.offer_singly(simd, lanes, single, &mut batch.waiting);
+                            closest.offer_singly(simd, lanes, single, &mut batch.pending);
                             continue;
                         }
                     };
                     for object in objects {
-                        object.meet(simd, &rays, leaves, &mut closest);
+                        object.hit(simd, &rays, leaves, &mut closest);
                     }
                 }
                 self.keep(simd, &closest, rays.direction, batch, at);
@@ -393,12 +392,12 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
         )
     }
 
-    /// Finds out which lights reach what the rays of a batch meet, eight neighbours at a time: many small
-    /// objects are met by fewer rays each than a vector has lanes.
+    /// Finds out which lights reach what the rays of a batch hit, eight neighbours at a time: many small
+    /// objects are hit by fewer rays each than a vector has lanes.
     pub(super) fn cast_shadows<S: Simd, const SINGLES: bool>(
         &self,
         simd: S,
-        tree: &PacketTree<'_>,
+        bvh: &PacketBvh<'_>,
         batch: &mut Batch,
         groups: &[Group],
     ) {
@@ -430,11 +429,11 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                             continue;
                         }
                         let (shadow, distance, _) = toward.shadow(origin);
-                        let occluded = self.occluded_by_tree::<S, SINGLES>(
+                        let occluded = self.occluded_by_bvh::<S, SINGLES>(
                             simd,
-                            tree,
+                            bvh,
                             &shadow,
-                            &mut batch.waiting,
+                            &mut batch.pending,
                             objects,
                             distance,
                             facing,
@@ -450,15 +449,15 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
         )
     }
 
-    /// The lanes of a mask whose rays, which leave objects, meet one that casts a shadow before `t_max`, and all
+    /// The lanes of a mask whose rays, which leave objects, hit one that casts a shadow before `t_max`, and all
     /// others. `Tracer::occluded_in_bvh`.
     #[expect(clippy::too_many_arguments)]
-    fn occluded_by_tree<S: Simd, const SINGLES: bool>(
+    fn occluded_by_bvh<S: Simd, const SINGLES: bool>(
         &self,
         simd: S,
-        tree: &PacketTree<'_>,
+        bvh: &PacketBvh<'_>,
         rays: &Rays<S>,
-        waiting: &mut WaitingParts,
+        pending: &mut PendingParts,
         leaves: Indices<S>,
         t_max: Numbers<S>,
         lanes: Mask<S>,
@@ -469,7 +468,7 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                 let mut occluded = !lanes;
                 self.shapes
                     .occlude_unbounded(simd, rays, leaves, t_max, &mut occluded);
-                let mut walk = Walk::new(tree, rays, lanes);
+                let mut walk = Walk::new(bvh, rays, lanes);
                 while !occluded.all_true()
                     && let Some(visit) = walk.next::<SINGLES>(simd, t_max, !occluded)
                 {
@@ -478,7 +477,7 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                         Visit::Few(wide, part, lanes) => {
                             for lane in bits(lanes) {
                                 let single = Single::new(&walk, rays, lane, wide, part);
-                                if single.is_occluded(simd, waiting, t_max[lane]) {
+                                if single.is_occluded(simd, pending, t_max[lane]) {
                                     occluded |= Mask::from_bitmask(simd, 1 << lane);
                                 }
                             }

@@ -1,4 +1,4 @@
-//! Leaving out the objects that a ray cannot meet changes no bit where objects stand in special ways:
+//! Leaving out the objects that a ray cannot hit changes no bit where objects stand in special ways:
 //! touching, resting, nested, coplanar, coincident, around the camera or the light. What is known of
 //! visibility ends with the scene it was found for. (Scenes of scenes/ and crowds: candidates.rs.)
 
@@ -38,7 +38,7 @@ fn compare<T: Scalar>(model: &Model<T>, size: Resolution, how: &dyn std::fmt::Di
     }
 }
 
-/// Makes random scenes around the view of a camera in the middle, of objects that meet the others in
+/// Makes random scenes around the view of a camera in the middle, of objects that touch the others in
 /// some special way.
 struct Maker<'r, T> {
     random: &'r Random,
@@ -99,7 +99,7 @@ impl<T: Scalar> Maker<'_, T> {
 
     /// A triangle, unless it has no area.
     fn add_triangle(&mut self, vertices: [Vec3<T>; 3]) {
-        let surface = scanray::shape::Surface {
+        let surface = scanray::shape::ObjectInfo {
             material: 0,
             number: 0,
         };
@@ -467,7 +467,7 @@ fn spheres_smaller_than_the_rounding_of_their_places_have_the_same_bits() {
 
 /// Found by fuzzing: new rays start 6e23 from where they left the triangle, beyond a plane that it does not reach.
 #[test]
-fn a_triangle_whose_ball_is_too_large_for_a_number_has_the_same_bits() {
+fn a_triangle_whose_bounding_sphere_is_too_large_for_a_number_has_the_same_bits() {
     compare_texts(&[
         "4\n0 1.5 -2.6\n800 600\n3.5 6.5 -2 1 1 1 1 1 1\n.25\n0\n.03 .035 .11\n\
          1 0 1 0 2e19 .22 .2 .42 0 0 0 .03 .03 .1 .3 20 0 0\n\

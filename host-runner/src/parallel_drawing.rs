@@ -10,11 +10,14 @@ use cpu_time::ProcessTime;
 use embedded_graphics::Drawable;
 use embedded_graphics::pixelcolor::Rgb888;
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use scanray::{DisplayColor, Picture, PixelSource, Quantizer};
+use scanray::{
+    Picture,
+    render::{DisplayColor, PixelSource, Quantizer},
+};
 
 use crate::canvas::{Band, Canvas, DrawBand};
 use crate::failure::Failure;
-use crate::memory::{Shortage, require};
+use crate::picture_memory::{Shortage, require};
 use crate::progress::Progress;
 
 /// A picture of more pixels is drawn and written in parts of about as many, so that memory has a

@@ -1,21 +1,21 @@
-//! A tree of spheres for single rays: eight boxes a node and eight spheres a leaf, which are tested at once.
+//! A hierarchy of spheres for single rays: eight boxes a node and eight spheres a leaf, which are tested at once.
 
 use scanray::Vec3;
 use scanray::accel::{Bvh, BvhNode, NodeContent};
 
-use super::single::MOST_WAITING;
-use super::{LeafObject, PairTree};
+use super::single::MOST_PENDING;
+use super::{LeafObject, PairBvh};
 use crate::packet::lanes::LANES;
 
 /// The tree of a scene, collapsed: a node has the subtrees of about three levels below it, and what has at most
 /// eight spheres is a leaf. The first node is the root.
 #[derive(Debug, Default)]
-pub(super) struct WideTree {
+pub(super) struct WideBvh {
     pub(super) nodes: Vec<WideNode>,
     pub(super) leaves: Vec<WideLeaf>,
 }
 
-/// Eight subtrees or fewer; the boxes of those that are not there are met by no ray.
+/// Eight subtrees or fewer; the boxes of those that are not there are hit by no ray.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(super) struct WideNode {
@@ -46,7 +46,7 @@ pub(super) struct WidePart {
     pub(super) children: u8,
 }
 
-/// Up to eight spheres. Those that are not there are met by no ray.
+/// Up to eight spheres. Those that are not there are hit by no ray.
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub(super) struct WideLeaf {
@@ -69,11 +69,11 @@ impl WideLeaf {
             casts_shadow: 0,
         };
         for (lane, object) in objects.enumerate() {
-            let Vec3 { x, y, z } = object.ball.center;
+            let Vec3 { x, y, z } = object.bounds.center;
             for (row, coordinate) in leaf.center.iter_mut().zip([x, y, z]) {
                 row[lane] = coordinate;
             }
-            leaf.radius_squared[lane] = object.ball.radius_squared;
+            leaf.radius_squared[lane] = object.bounds.radius_squared;
             leaf.index[lane] = object.index;
             leaf.casts_shadow |= u8::from(object.casts_shadow) << lane;
         }
@@ -99,18 +99,18 @@ impl WideNode {
     }
 }
 
-impl WideTree {
-    /// Collapses a tree, none of whose leaves has more than eight objects, and enters in the pairs which part
-    /// of the wide tree each of them is. `pair_of` has the pair of each inner node of the tree, and the first
-    /// object of each leaf. Nothing for a tree that is too deep for a walk.
-    pub(super) fn new(tree: Bvh<'_>, pairs: &mut PairTree<'_>, pair_of: &[u32]) -> Option<Self> {
-        let collapse = Collapse::of(tree);
+impl WideBvh {
+    /// Collapses a hierarchy, none of whose leaves has more than eight objects, and enters in the pairs which part
+    /// of the wide hierarchy each of them is. `pair_of` has the pair of each inner node of the hierarchy, and the first
+    /// object of each leaf. Nothing for a hierarchy that is too deep for a walk.
+    pub(super) fn new(bvh: Bvh<'_>, pairs: &mut PairBvh<'_>, pair_of: &[u32]) -> Option<Self> {
+        let collapse = Collapse::of(bvh);
         let mut new = Self::default();
-        // Nodes of the tree that become wide ones, where they are entered, and how deep they are.
-        let mut waiting = vec![(0, None::<(usize, usize)>, 1)];
-        while let Some((root, place, depth)) = waiting.pop() {
+        // Nodes of the hierarchy that become wide ones, where they are entered, and how deep they are.
+        let mut pending = vec![(0, None::<(usize, usize)>, 1)];
+        while let Some((root, place, depth)) = pending.pop() {
             // All but one of the subtrees of each node on the way down wait.
-            if depth * (LANES - 1) >= MOST_WAITING {
+            if depth * (LANES - 1) >= MOST_PENDING {
                 return None;
             }
             let index = new.nodes.len();
@@ -125,7 +125,7 @@ impl WideTree {
             new.nodes.push(WideNode::new(boxes));
             for (lane, child) in children.into_iter().enumerate() {
                 if collapse.counts[child] as usize > LANES {
-                    waiting.push((child, Some((index, lane)), depth + 1));
+                    pending.push((child, Some((index, lane)), depth + 1));
                     continue;
                 }
                 let part = WidePart {
@@ -150,18 +150,18 @@ impl WideTree {
     }
 }
 
-/// A tree that is collapsed.
+/// A hierarchy that is collapsed.
 struct Collapse<'t> {
-    tree: Bvh<'t>,
+    bvh: Bvh<'t>,
     /// Objects below each node.
     counts: Vec<u32>,
 }
 
 impl<'t> Collapse<'t> {
-    fn of(tree: Bvh<'t>) -> Self {
-        let mut counts = vec![0; tree.nodes.len()];
+    fn of(bvh: Bvh<'t>) -> Self {
+        let mut counts = vec![0; bvh.nodes.len()];
         // Children come later.
-        for (index, node) in tree.nodes.iter().enumerate().rev() {
+        for (index, node) in bvh.nodes.iter().enumerate().rev() {
             counts[index] = match node.content() {
                 NodeContent::Leaf { count, .. } => count,
                 NodeContent::Inner { first, .. } => {
@@ -169,11 +169,11 @@ impl<'t> Collapse<'t> {
                 }
             };
         }
-        Self { tree, counts }
+        Self { bvh, counts }
     }
 
     fn bounds(&self, node: usize) -> [Vec3; 2] {
-        let node: &BvhNode = &self.tree.nodes[node];
+        let node: &BvhNode = &self.bvh.nodes[node];
         [node.low(), node.high()]
     }
 
@@ -197,7 +197,7 @@ impl<'t> Collapse<'t> {
             });
             let Some(lower) = largest else { break };
             let node = children[lower];
-            let NodeContent::Inner { first, .. } = self.tree.nodes[node].content() else {
+            let NodeContent::Inner { first, .. } = self.bvh.nodes[node].content() else {
                 break;
             };
             let upper = children.len();
@@ -214,13 +214,13 @@ impl<'t> Collapse<'t> {
     /// The leaves below a node, with their numbers of objects; `inner` is told of the nodes above them.
     fn leaves_below(&self, node: usize, mut inner: impl FnMut(usize)) -> Vec<(usize, u32)> {
         let mut leaves = Vec::new();
-        let mut waiting = vec![node];
-        while let Some(node) = waiting.pop() {
-            match self.tree.nodes[node].content() {
+        let mut pending = vec![node];
+        while let Some(node) = pending.pop() {
+            match self.bvh.nodes[node].content() {
                 NodeContent::Leaf { count, .. } => leaves.push((node, count)),
                 NodeContent::Inner { first, .. } => {
                     inner(node);
-                    waiting.extend([first as usize + 1, first as usize]);
+                    pending.extend([first as usize + 1, first as usize]);
                 }
             }
         }

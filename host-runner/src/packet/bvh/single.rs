@@ -1,6 +1,6 @@
-//! Single rays through a part of a tree of spheres, eight boxes or eight spheres at a time.
+//! Single rays through a part of a hierarchy of spheres, eight boxes or eight spheres at a time.
 //!
-//! A ray meets a sphere in its box whichever axis is asked (`accel::bvh` of the core: the point that the
+//! A ray hits a sphere in its box whichever axis is asked (`accel::bvh` of the core: the point that the
 //! test reports lies on the sphere but for rounding, which the boxes have a margin for), so that all axes may
 //! tell that a box is behind the ray or too far. The core, whose boxes may hold triangles, asks one.
 
@@ -9,15 +9,15 @@ use scanray::Vec3;
 use scanray::formula::sphere::{chord, crossings};
 
 use super::Walk;
-use super::wide::{WideChild, WideLeaf, WideNode, WidePart, WideTree};
+use super::wide::{WideBvh, WideChild, WideLeaf, WideNode, WidePart};
 use crate::packet::lanes::{InLanes, LANES, Mask, Numbers, Rays, Vec3s};
 
 /// The most that may wait to be visited.
-pub(super) const MOST_WAITING: usize = 256;
+pub(super) const MOST_PENDING: usize = 256;
 
-/// A ray that is alone in a part of the tree.
+/// A ray that is alone in a part of the hierarchy.
 pub(super) struct Single<'w> {
-    tree: &'w WideTree,
+    bvh: &'w WideBvh,
     part: WidePart,
     origin: Vec3,
     direction: Vec3,
@@ -70,9 +70,9 @@ impl Axis {
 
 /// A node or a leaf and where the ray enters it, which decides the order.
 #[derive(Clone, Copy, Debug)]
-struct Waiting(i64);
+struct Pending(i64);
 
-impl Waiting {
+impl Pending {
     const NOTHING: Self = Self(0);
 
     #[inline(always)]
@@ -94,11 +94,11 @@ impl Waiting {
 
 /// What a single ray has still to visit, the next one last.
 #[derive(Debug)]
-pub(in crate::packet) struct WaitingParts(Box<[Waiting; MOST_WAITING]>);
+pub(in crate::packet) struct PendingParts(Box<[Pending; MOST_PENDING]>);
 
-impl WaitingParts {
+impl PendingParts {
     pub(in crate::packet) fn new() -> Self {
-        Self(Box::new([Waiting::NOTHING; MOST_WAITING]))
+        Self(Box::new([Pending::NOTHING; MOST_PENDING]))
     }
 }
 
@@ -109,12 +109,12 @@ impl<'w> Single<'w> {
         walk: &Walk<'_, S>,
         rays: &Rays<S>,
         lane: usize,
-        tree: &'w WideTree,
+        bvh: &'w WideBvh,
         part: WidePart,
     ) -> Self {
         let (inverse, low, high) = (&walk.inverse, &walk.low, &walk.high);
         Self {
-            tree,
+            bvh,
             part,
             origin: rays.origin.lane(lane),
             direction: rays.direction.lane(lane),
@@ -126,38 +126,38 @@ impl<'w> Single<'w> {
         }
     }
 
-    /// The subtrees of a node that may have something to meet at `t ≤ t_max`, and where the ray enters
-    /// them. `Walk::may_meet`.
+    /// The subtrees of a node that may have something to hit at `t ≤ t_max`, and where the ray enters
+    /// them. `Walk::may_hit`.
     #[inline(always)]
-    fn may_meet<S: Simd>(&self, simd: S, node: &WideNode, t_max: f32) -> (Mask<S>, Numbers<S>) {
+    fn may_hit<S: Simd>(&self, simd: S, node: &WideNode, t_max: f32) -> (Mask<S>, Numbers<S>) {
         let [x, y, z] = &self.axes;
         let x = x.slabs(simd, &node.bounds[0]);
         let y = y.slabs(simd, &node.bounds[1]);
         let z = z.slabs(simd, &node.bounds[2]);
-        // Which of two numbers a NaN gives does not matter: its ray meets nothing.
+        // Which of two numbers a NaN gives does not matter: its ray hits nothing.
         let entry = x[0].max(y[0]).max(z[0]);
         let exit = x[1].min(y[1]).min(z[1]);
-        let met = entry.simd_le(exit) & exit.simd_ge(0.0) & entry.simd_le(t_max);
-        (met, entry)
+        let hit = entry.simd_le(exit) & exit.simd_ge(0.0) & entry.simd_le(t_max);
+        (hit, entry)
     }
 
     #[inline(always)]
     fn walk<'s, S: Simd>(
         &'s self,
         simd: S,
-        waiting: &'s mut WaitingParts,
+        pending: &'s mut PendingParts,
         t_max: f32,
     ) -> SingleWalk<'s> {
         let mut walk = SingleWalk {
             ray: self,
-            waiting,
+            pending,
             len: 0,
         };
-        let node = &self.tree.nodes[self.part.node as usize];
-        let (met, entry) = self.may_meet(simd, node, t_max);
-        let met = met.to_bitmask() as u32 & u32::from(self.part.children);
-        if let Some(nearest) = walk.divide(node, met, entry) {
-            walk.push(Waiting::new(f32::NEG_INFINITY, nearest));
+        let node = &self.bvh.nodes[self.part.node as usize];
+        let (hit, entry) = self.may_hit(simd, node, t_max);
+        let hit = hit.to_bitmask() as u32 & u32::from(self.part.children);
+        if let Some(nearest) = walk.divide(node, hit, entry) {
+            walk.push(Pending::new(f32::NEG_INFINITY, nearest));
         }
         walk
     }
@@ -168,22 +168,22 @@ impl<'w> Single<'w> {
     pub(super) fn nearest<S: Simd>(
         &self,
         simd: S,
-        waiting: &mut WaitingParts,
+        pending: &mut PendingParts,
         (mut t_max, mut object): (f32, u32),
     ) -> (f32, u32) {
-        let mut walk = self.walk(simd, waiting, t_max);
+        let mut walk = self.walk(simd, pending, t_max);
         while let Some(leaf) = walk.next_leaf(simd, t_max) {
             let (near, far) = self.crossings(simd, leaf);
             let t = Numbers::select(near.simd_gt(0.0), near, far);
-            let met = t.simd_gt(0.0) & t.simd_le(t_max);
-            let mut met = met.to_bitmask() as u32;
-            if met == 0 {
+            let hit = t.simd_gt(0.0) & t.simd_le(t_max);
+            let mut hit = hit.to_bitmask() as u32;
+            if hit == 0 {
                 continue;
             }
             let t = t.to_array();
-            while met != 0 {
-                let lane = met.trailing_zeros() as usize % LANES;
-                met &= met - 1;
+            while hit != 0 {
+                let lane = hit.trailing_zeros() as usize % LANES;
+                hit &= hit - 1;
                 // `Closest::offer`.
                 let (t, index) = (t[lane], leaf.index[lane]);
                 if t < t_max || (t == t_max && index < object) {
@@ -194,20 +194,20 @@ impl<'w> Single<'w> {
         (t_max, object)
     }
 
-    /// Whether it meets a sphere in the part that casts a shadow before `t_max`.
+    /// Whether it hits a sphere in the part that casts a shadow before `t_max`.
     #[inline(always)]
     pub(super) fn is_occluded<S: Simd>(
         &self,
         simd: S,
-        waiting: &mut WaitingParts,
+        pending: &mut PendingParts,
         t_max: f32,
     ) -> bool {
-        let mut walk = self.walk(simd, waiting, t_max);
+        let mut walk = self.walk(simd, pending, t_max);
         while let Some(leaf) = walk.next_leaf(simd, t_max) {
             let (near, far) = self.crossings(simd, leaf);
-            let met =
+            let hit =
                 (near.simd_gt(0.0) & near.simd_lt(t_max)) | (far.simd_gt(0.0) & far.simd_lt(t_max));
-            if met.to_bitmask() as u8 & leaf.casts_shadow != 0 {
+            if hit.to_bitmask() as u8 & leaf.casts_shadow != 0 {
                 return true;
             }
         }
@@ -230,34 +230,34 @@ impl<'w> Single<'w> {
 /// The way of a ray through the part, the nearer first.
 struct SingleWalk<'w> {
     ray: &'w Single<'w>,
-    waiting: &'w mut WaitingParts,
+    pending: &'w mut PendingParts,
     len: usize,
 }
 
 impl<'w> SingleWalk<'w> {
     #[inline(always)]
-    fn push(&mut self, next: Waiting) {
-        self.waiting.0[self.len % MOST_WAITING] = next;
+    fn push(&mut self, next: Pending) {
+        self.pending.0[self.len % MOST_PENDING] = next;
         self.len += 1;
     }
 
-    /// The next leaf with spheres that the ray may meet at `t ≤ t_max`.
+    /// The next leaf with spheres that the ray may hit at `t ≤ t_max`.
     #[inline(always)]
     fn next_leaf<S: Simd>(&mut self, simd: S, t_max: f32) -> Option<&'w WideLeaf> {
         while self.len > 0 {
             self.len -= 1;
-            let next = self.waiting.0[self.len % MOST_WAITING];
+            let next = self.pending.0[self.len % MOST_PENDING];
             if next.entry() > t_max {
                 continue;
             }
             let mut child = next.child();
             loop {
                 if let Some(leaf) = child.leaf() {
-                    return Some(&self.ray.tree.leaves[leaf]);
+                    return Some(&self.ray.bvh.leaves[leaf]);
                 }
-                let node = &self.ray.tree.nodes[child.0 as usize];
-                let (met, entry) = self.ray.may_meet(simd, node, t_max);
-                match self.divide(node, met.to_bitmask() as u32, entry) {
+                let node = &self.ray.bvh.nodes[child.0 as usize];
+                let (hit, entry) = self.ray.may_hit(simd, node, t_max);
+                match self.divide(node, hit.to_bitmask() as u32, entry) {
                     Some(nearest) => child = nearest,
                     None => break,
                 }
@@ -271,23 +271,23 @@ impl<'w> SingleWalk<'w> {
     fn divide<S: Simd>(
         &mut self,
         node: &WideNode,
-        mut met: u32,
+        mut hit: u32,
         entry: Numbers<S>,
     ) -> Option<WideChild> {
-        if met == 0 {
+        if hit == 0 {
             return None;
         }
-        let lane = met.trailing_zeros() as usize % LANES;
-        met &= met - 1;
-        if met == 0 {
+        let lane = hit.trailing_zeros() as usize % LANES;
+        hit &= hit - 1;
+        if hit == 0 {
             return Some(node.children[lane]);
         }
         let entry = entry.to_array();
-        let mut nearest = Waiting::new(entry[lane], node.children[lane]);
-        while met != 0 {
-            let lane = met.trailing_zeros() as usize % LANES;
-            met &= met - 1;
-            let other = Waiting::new(entry[lane], node.children[lane]);
+        let mut nearest = Pending::new(entry[lane], node.children[lane]);
+        while hit != 0 {
+            let lane = hit.trailing_zeros() as usize % LANES;
+            hit &= hit - 1;
+            let other = Pending::new(entry[lane], node.children[lane]);
             let is_nearer = other.0 < nearest.0;
             self.push(if is_nearer { nearest } else { other });
             nearest = if is_nearer { other } else { nearest };

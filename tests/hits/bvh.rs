@@ -1,11 +1,11 @@
-//! The tree of a large scene gives the hits and shadows of brute force, to the bit: in crowds of any scale,
-//! with ties, coincident and degenerate objects, for rays that only just meet what they are aimed at.
+//! The hierarchy of a large scene gives the hits and shadows of brute force, to the bit: in crowds of any scale,
+//! with ties, coincident and degenerate objects, for rays that only just hit what they are aimed at.
 
 use crate::common::random::Random;
 use crate::common::sampling::bits;
 use scanray::{
-    Camera, Color, Light, MaterialDescription, Ray, Resolution, Scalar, ScenePools, Side, Tracer,
-    Vec3,
+    Camera, Color, Light, MaterialDescription, Ray, Resolution, Scalar, ScenePools, Tracer, Vec3,
+    ray::Side,
 };
 
 type Pools<T> = ScenePools<T, 256, 4, 512, 800, 1, 0, 768>;
@@ -192,7 +192,7 @@ impl<'r, T: Scalar> Crowd<'r, T> {
         }
     }
 
-    /// A ray that is likely to meet something, or to miss it by little.
+    /// A ray that is likely to hit something, or to miss it by little.
     fn ray(&self) -> Ray<T> {
         let random = self.random;
         let target = self.targets[random.below(self.targets.len())];
@@ -262,18 +262,18 @@ fn compare_crowds<T: Scalar>(seed: u64, scenes: usize) {
         let crowd = Crowd::<T>::new(&random);
         let scene = crowd.pools.as_scene();
         assert!(scene.accel().bvh().is_some());
-        let by_tree = Tracer::new(scene).with_bvh();
+        let by_bvh = Tracer::new(scene).with_bvh();
         let brute_force = Tracer::new(scene.without_accel());
         for _ in 0..200 {
             let ray = crowd.ray();
-            let (actual, expected) = (by_tree.nearest(&ray), brute_force.nearest(&ray));
-            let result = |nearest: Option<scanray::Nearest<'_, T>>| {
-                nearest.map(|n| (n.t.to_f64().to_bits(), n.object.surface().number))
+            let (actual, expected) = (by_bvh.nearest(&ray), brute_force.nearest(&ray));
+            let result = |nearest: Option<scanray::tracer::Nearest<'_, T>>| {
+                nearest.map(|n| (n.t.to_f64().to_bits(), n.object.info().number))
             };
             assert_eq!(
                 result(actual),
                 result(expected),
-                "scene {index}: {ray:?} meets {actual:?} instead of {expected:?}"
+                "scene {index}: {ray:?} hits {actual:?} instead of {expected:?}"
             );
             let reach = match expected {
                 Some(nearest) => {
@@ -282,22 +282,22 @@ fn compare_crowds<T: Scalar>(seed: u64, scenes: usize) {
                 }
                 None => T::from_f64(crowd.scale * 10.0),
             };
-            let occluded = by_tree.occluded(&ray, reach);
+            let occluded = by_bvh.occluded(&ray, reach);
             assert_eq!(
                 occluded,
                 brute_force.occluded(&ray, reach),
                 "scene {index}: shadow of {ray:?} within {reach}"
             );
             shadows += u32::from(occluded);
-            let mut count = scanray::WorkCount::default();
-            by_tree.radiance_observed(ray, scanray::ObjectSet::ALL, &mut count);
+            let mut count = scanray::tracer::WorkCount::default();
+            by_bvh.radiance_observed(ray, scanray::accel::ObjectSet::ALL, &mut count);
             boxes += count.box_tests;
             tests += count.rays() * scene.accel().bvh().nodes.len() as u64;
         }
     }
-    // The comparison is of meetings, and not of trees that leave out nothing.
+    // The comparison is of intersections, and not of hierarchies that leave out nothing.
     let rays = 200 * scenes as u32;
-    assert!(hits > rays / 3, "only {hits} of {rays} rays meet something");
+    assert!(hits > rays / 3, "only {hits} of {rays} rays hit something");
     assert!(shadows > rays / 10, "only {shadows} shadows");
     assert!(boxes < tests * 3 / 4, "{boxes} of {tests} boxes are tested");
 }
@@ -342,13 +342,13 @@ fn pictures_are_those_of_brute_force() {
             width: 24,
             height: 18,
         };
-        let by_tree = Tracer::new(scene).with_bvh().with_resolution(size);
+        let by_bvh = Tracer::new(scene).with_bvh().with_resolution(size);
         let brute_force = scene.without_accel();
         let brute_force = Tracer::new(brute_force).with_resolution(size);
         for y in 0..size.height {
             for x in 0..size.width {
                 assert_eq!(
-                    bits(by_tree.pixel(x, y)),
+                    bits(by_bvh.pixel(x, y)),
                     bits(brute_force.pixel(x, y)),
                     "scene {index}, pixel ({x}, {y})"
                 );
@@ -358,7 +358,7 @@ fn pictures_are_those_of_brute_force() {
 }
 
 #[test]
-fn rays_that_are_none_meet_nothing() {
+fn rays_that_are_none_hit_nothing() {
     let random = Random::of_test(4);
     let crowd = Crowd::<f32>::new(&random);
     let tracer = Tracer::new(crowd.pools.as_scene()).with_bvh();
@@ -381,7 +381,7 @@ fn rays_that_are_none_meet_nothing() {
 }
 
 #[test]
-fn another_object_undoes_the_tree_and_small_pools_have_none() {
+fn another_object_undoes_the_bvh_and_small_pools_have_none() {
     let random = Random::of_test(5);
     let mut crowd = Crowd::<f32>::new(&random);
     assert!(crowd.pools.as_scene().accel().bvh().is_some());
@@ -400,15 +400,11 @@ fn another_object_undoes_the_tree_and_small_pools_have_none() {
             .unwrap();
         small.prepare();
         // Few objects do not need one, and there is room for 99.
-        let tree = small.as_scene().accel().bvh();
+        let bvh = small.as_scene().accel().bvh();
+        assert_eq!(bvh.is_some(), (48..=99).contains(&count), "{count} objects");
         assert_eq!(
-            tree.is_some(),
-            (48..=99).contains(&count),
-            "{count} objects"
-        );
-        assert_eq!(
-            tree.is_some(),
-            small.as_scene().needs().contains(scanray::Stages::BVH)
+            bvh.is_some(),
+            small.as_scene().stages().contains(scanray::Stages::BVH)
         );
     }
 }

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
 use crate::image::ImageFormat;
-use crate::output::Place;
+use crate::output_files::Place;
 use crate::scene_file::SceneSource;
 
 /// A file to be written.
