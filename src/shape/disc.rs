@@ -8,7 +8,6 @@ use crate::formula::{self, origin_offset};
 use crate::ray::Ray;
 use crate::real::Real;
 use crate::scalar::Scalar;
-use crate::stages::Stages;
 use crate::vec3::Vec3;
 
 /// A disc, seen from both sides.
@@ -127,10 +126,8 @@ impl<T: Scalar> Disc<T> {
 
 impl<T: Scalar> Primitive<T> for Disc<T> {
     const KIND: Kind = Kind::Disc;
-    const STAGE: Stages = Stages::DISCS;
     const IS_FLAT: bool = true;
     const IS_BOUNDED: bool = true;
-    const HAS_PLACE: bool = false;
 
     fn shape(&self) -> Shape<T> {
         Shape::Disc {
@@ -164,11 +161,6 @@ impl<T: Scalar> Primitive<T> for Disc<T> {
     #[inline(always)]
     fn hit(&self, ray: &Ray<T>, t_max: T) -> Option<(T, Barycentric<T>)> {
         Some((self.intersect(ray, t_max)?, Barycentric::ZERO))
-    }
-
-    #[inline(always)]
-    fn occludes(&self, ray: &Ray<T>, t_max: T) -> bool {
-        matches!(self.intersect(ray, t_max), Some(t) if t < t_max)
     }
 
     #[inline(always)]

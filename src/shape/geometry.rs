@@ -1,7 +1,7 @@
 //! The objects of a scene: borrowed slices, one for each shape.
 
 use super::{
-    Disc, Kind, ListedShape, Object, Plane, Primitive, Sphere, Stored, Triangle, for_each_shape,
+    Kind, ListedShape, Object, Plane, Primitive, Sphere, Stored, Triangle, for_each_shape,
     for_each_stored_shape,
 };
 use crate::scalar::Scalar;
@@ -88,7 +88,7 @@ impl<'a, T: Scalar> Geometry<'a, T> {
         macro_rules! among_stored {
             ([$($shape:ident)*]) => {
                 match self.stored.entries.get(index).map(|entry| entry.kind) {
-                    $(Some(Kind::$shape) => <$shape<T> as Primitive<T>>::IS_FLAT,)*
+                    $(Some(Kind::$shape) => <super::$shape<T> as Primitive<T>>::IS_FLAT,)*
                     _ => false,
                 }
             };
@@ -138,13 +138,18 @@ impl<'a, T: Scalar> Geometry<'a, T> {
 impl<T> Geometry<'_, T> {
     /// The stages that draw these objects.
     pub const fn stages(&self) -> Stages {
-        Stages::NONE
+        let mut stages = Stages::NONE
             .with_if(Stages::SPHERES, !self.spheres.is_empty())
             .with_if(Stages::PLANES, !self.planes.is_empty())
             .with_if(Stages::TRIANGLES, !self.triangles.is_empty())
             .with_if(Stages::SEVERAL_SPHERES, self.spheres.len() > 1)
             .with_if(Stages::SEVERAL_PLANES, self.planes.len() > 1)
-            .with_if(Stages::SEVERAL_TRIANGLES, self.triangles.len() > 1)
-            .with_if(Stages::DISCS, self.stored.count_of(Kind::Disc) > 0)
+            .with_if(Stages::SEVERAL_TRIANGLES, self.triangles.len() > 1);
+        let mut i = 0;
+        while i < self.stored.entries.len() {
+            stages = stages.union(self.stored.entries[i].kind.stage());
+            i += 1;
+        }
+        stages
     }
 }

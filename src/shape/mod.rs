@@ -107,6 +107,16 @@ impl Kind {
         self as usize
     }
 
+    /// The stage that draws it.
+    pub const fn stage(self) -> Stages {
+        match self {
+            Self::Sphere => Stages::SPHERES,
+            Self::Plane => Stages::PLANES,
+            Self::Triangle => Stages::TRIANGLES,
+            Self::Disc => Stages::DISCS,
+        }
+    }
+
     /// Its name in messages, in the singular.
     pub const fn name(self) -> &'static str {
         match self {
@@ -235,13 +245,13 @@ pub(crate) trait Primitive<T: Scalar>: Copy {
     /// Its kind.
     const KIND: Kind;
     /// The stage that draws it.
-    const STAGE: Stages;
+    const STAGE: Stages = Self::KIND.stage();
     /// A ray that leaves it cannot hit it again, whatever rounding says.
     const IS_FLAT: bool;
     /// It can be in a box of the hierarchy.
     const IS_BOUNDED: bool;
     /// [`Primitive::point`] needs the place that [`Primitive::hit`] tells.
-    const HAS_PLACE: bool;
+    const HAS_PLACE: bool = false;
 
     /// What describes it.
     fn shape(&self) -> Shape<T>;
@@ -262,7 +272,10 @@ pub(crate) trait Primitive<T: Scalar>: Copy {
     fn hit(&self, ray: &Ray<T>, t_max: T) -> Option<(T, Barycentric<T>)>;
 
     /// Whether there is a hit within `0 < t < t_max`.
-    fn occludes(&self, ray: &Ray<T>, t_max: T) -> bool;
+    #[inline(always)]
+    fn occludes(&self, ray: &Ray<T>, t_max: T) -> bool {
+        matches!(self.hit(ray, t_max), Some((t, _)) if t < t_max)
+    }
 
     /// The point of a hit, projected back onto the surface.
     fn point(&self, ray: &Ray<T>, t: T, place: Barycentric<T>) -> SurfacePoint<T>;

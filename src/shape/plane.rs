@@ -106,10 +106,8 @@ impl<T: Scalar> Plane<T> {
 
 impl<T: Scalar> Primitive<T> for Plane<T> {
     const KIND: Kind = Kind::Plane;
-    const STAGE: Stages = Stages::PLANES;
     const IS_FLAT: bool = true;
     const IS_BOUNDED: bool = false;
-    const HAS_PLACE: bool = false;
 
     fn shape(&self) -> Shape<T> {
         Shape::Plane {

@@ -175,10 +175,8 @@ impl<T: Scalar> Sphere<T> {
 
 impl<T: Scalar> Primitive<T> for Sphere<T> {
     const KIND: Kind = Kind::Sphere;
-    const STAGE: Stages = Stages::SPHERES;
     const IS_FLAT: bool = false;
     const IS_BOUNDED: bool = true;
-    const HAS_PLACE: bool = false;
 
     fn shape(&self) -> Shape<T> {
         Shape::Sphere {

@@ -241,7 +241,6 @@ impl<T: Scalar> Triangle<T> {
 
 impl<T: Scalar> Primitive<T> for Triangle<T> {
     const KIND: Kind = Kind::Triangle;
-    const STAGE: Stages = Stages::TRIANGLES;
     const IS_FLAT: bool = true;
     const IS_BOUNDED: bool = true;
     const HAS_PLACE: bool = true;

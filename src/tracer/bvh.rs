@@ -4,7 +4,7 @@ use super::{Closest, Observer, TestKind, Tracer, any_stage, stage};
 use crate::accel::Walk;
 use crate::ray::Ray;
 use crate::scalar::Scalar;
-use crate::shape::{ListedShape, Plane, Primitive, Sphere, Triangle, for_each_shape};
+use crate::shape::{self, ListedShape, Primitive, for_each_shape};
 use crate::stages::Stages;
 
 impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES, STACK> {
@@ -29,9 +29,9 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
                 let mut within = index;
                 macro_rules! offer_bounded {
                     ([$($shape:ident)*]) => {
-                        $(if stage(STAGES, <$shape<T> as Primitive<T>>::STAGE) {
-                            let all = <$shape<T>>::all(&self.scene.geometry);
-                            if <$shape<T> as Primitive<T>>::IS_BOUNDED
+                        $(if stage(STAGES, <shape::$shape<T> as Primitive<T>>::STAGE) {
+                            let all = <shape::$shape<T>>::all(&self.scene.geometry);
+                            if <shape::$shape<T> as Primitive<T>>::IS_BOUNDED
                                 && let Some(object) = all.get(within)
                             {
                                 observer.test_object(object.object(), ray, closest.t);
@@ -76,9 +76,9 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
                 let mut within = index;
                 macro_rules! occluded_by_bounded {
                     ([$($shape:ident)*]) => {
-                        $(if stage(STAGES, <$shape<T> as Primitive<T>>::STAGE) {
-                            let all = <$shape<T>>::all(&self.scene.geometry);
-                            if <$shape<T> as Primitive<T>>::IS_BOUNDED
+                        $(if stage(STAGES, <shape::$shape<T> as Primitive<T>>::STAGE) {
+                            let all = <shape::$shape<T>>::all(&self.scene.geometry);
+                            if <shape::$shape<T> as Primitive<T>>::IS_BOUNDED
                                 && let Some(object) = all.get(within)
                             {
                                 observer.test_object(object.object(), ray, t_max);

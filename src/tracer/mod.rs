@@ -19,9 +19,8 @@ use crate::ray::{Ray, Side};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::shape::{
-    Barycentric, Disc, Geometry, Kind, ListedShape, Object, ObjectInfo, Plane, Primitive, Sphere,
-    Stored, StoredObject, StoredShape, SurfacePoint, Triangle, for_each_shape,
-    for_each_stored_shape,
+    self, Barycentric, Geometry, Kind, ListedShape, Object, ObjectInfo, Primitive, Stored, StoredObject, StoredShape,
+    SurfacePoint, for_each_shape, for_each_stored_shape,
 };
 use crate::stages::Stages;
 use crate::vec3::Vec3;
@@ -334,7 +333,7 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
         let mut first = 0;
         macro_rules! closest_of_each {
             ([$($shape:ident)*]) => {
-                $(first = self.closest_of::<$shape<T>>(first, &mut members, ray, &mut closest, observer);)*
+                $(first = self.closest_of::<shape::$shape<T>>(first, &mut members, ray, &mut closest, observer);)*
             };
         }
         for_each_shape!(closest_of_each);
@@ -404,9 +403,9 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
         macro_rules! of_kind {
             ([$($shape:ident)*]) => {
                 match object.entry.kind {
-                    $(Kind::$shape if stage(STAGES, <$shape<T> as Primitive<T>>::STAGE) => {
+                    $(Kind::$shape if stage(STAGES, <shape::$shape<T> as Primitive<T>>::STAGE) => {
                         observer.test_object(Object::Stored(object), ray, closest.t);
-                        self.offer(index, &<$shape<T>>::of(object), ray, closest);
+                        self.offer(index, &<shape::$shape<T>>::of(object), ray, closest);
                     })*
                     _ => {}
                 }
@@ -446,9 +445,9 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
         macro_rules! of_kind {
             ([$($shape:ident)*]) => {
                 match object.entry.kind {
-                    $(Kind::$shape if stage(STAGES, <$shape<T> as Primitive<T>>::STAGE) => {
+                    $(Kind::$shape if stage(STAGES, <shape::$shape<T> as Primitive<T>>::STAGE) => {
                         observer.test_object(Object::Stored(object), ray, t_max);
-                        self.is_occluded_by(index, &<$shape<T>>::of(object), ray, t_max)
+                        self.is_occluded_by(index, &<shape::$shape<T>>::of(object), ray, t_max)
                     })*
                     _ => false,
                 }
@@ -479,10 +478,10 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
         macro_rules! occluded_by_each {
             ([$($shape:ident)*]) => {
                 $(
-                    if self.occluded_by::<$shape<T>>(first, &mut members, ray, t_max, observer) {
+                    if self.occluded_by::<shape::$shape<T>>(first, &mut members, ray, t_max, observer) {
                         return true;
                     }
-                    first += $shape::all(&self.scene.geometry).len();
+                    first += shape::$shape::all(&self.scene.geometry).len();
                 )*
             };
         }
@@ -592,11 +591,11 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
         let mut index = closest.index;
         macro_rules! among {
             ([$($shape:ident)*]) => {
-                $(if stage(STAGES, <$shape<T> as Primitive<T>>::STAGE) {
-                    let all = <$shape<T>>::all(&self.scene.geometry);
+                $(if stage(STAGES, <shape::$shape<T> as Primitive<T>>::STAGE) {
+                    let all = <shape::$shape<T>>::all(&self.scene.geometry);
                     if let Some(object) = all.get(index) {
                         let point = object.point(ray, closest.t, closest.place);
-                        let cell = match <$shape<T> as Primitive<T>>::KIND {
+                        let cell = match <shape::$shape<T> as Primitive<T>>::KIND {
                             Kind::Plane => self
                                 .scene
                                 .accel
@@ -619,8 +618,8 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
         macro_rules! of_kind {
             ([$($shape:ident)*]) => {
                 match object.entry.kind {
-                    $(Kind::$shape if stage(STAGES, <$shape<T> as Primitive<T>>::STAGE) => {
-                        <$shape<T>>::of(object).point(ray, closest.t, closest.place)
+                    $(Kind::$shape if stage(STAGES, <shape::$shape<T> as Primitive<T>>::STAGE) => {
+                        <shape::$shape<T>>::of(object).point(ray, closest.t, closest.place)
                     })*
                     _ => return None,
                 }
