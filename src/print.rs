@@ -49,6 +49,7 @@ pub fn print<'s, T: Scalar>(scene: &'s Scene<'_, T>) -> Result<impl fmt::Display
 
 /// Why a scene has no text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum PrintError {
     /// The dialect has one light.
     TooManyLights {

@@ -26,6 +26,7 @@ use core::cmp::Ordering;
 
 /// Why a text could not be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum DecimalError {
     /// The text is not a decimal number, or not only that.
     NotANumber,

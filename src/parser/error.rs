@@ -25,6 +25,7 @@ pub struct ParseError {
 
 /// What would have been accepted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Expected {
     /// A number with a meaning.
     Number {
@@ -60,6 +61,7 @@ pub enum Expected {
 
 /// A range of accepted numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Range {
     /// Any finite number.
     Finite,
@@ -92,6 +94,7 @@ pub enum Range {
 
 /// What is there instead of what was expected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Found {
     /// A word that is not what was expected.
     Word(Excerpt),

@@ -135,6 +135,7 @@ pub struct PoolUse {
 
 /// Why something could not be added to a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum SceneError {
     /// The pool has no room left.
     PoolFull {

@@ -13,6 +13,7 @@ use crate::color::Color;
 /// A pixel that is begun is finished, so that a budget of rays may be exceeded by what one pixel casts
 /// ([`Tracer::max_rays_per_pixel`](crate::Tracer::max_rays_per_pixel) at most, far fewer as a rule).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Budget {
     /// Rays of all kinds: the closest measure of time.
     Rays(u32),

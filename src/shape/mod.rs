@@ -372,6 +372,7 @@ pub struct SurfacePoint<T> {
 
 /// Why numbers do not make a shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum ShapeError {
     /// The radius is zero, negative or not a number.
     RadiusNotPositive,

@@ -21,6 +21,7 @@ pub enum RayKind {
 
 /// A kind of intersection test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum TestKind {
     /// Ray against sphere.
     Sphere,
