@@ -7,6 +7,7 @@
 
 use std::{env, fs, path::Path};
 
+use scanray::accel::Accel;
 use scanray::{Material, ScenePools};
 
 /// A picture as a program draws it that sets nothing.
@@ -39,11 +40,16 @@ fn main() {
         Ok("polynomial") => materials.iter().map(without_squaring).collect(),
         _ => materials.to_vec(),
     };
+    let without = env::var("SCANRAY_WITHOUT").unwrap_or_else(|_| "NONE".into());
+    let accel = match without.as_str() {
+        // What nothing walks takes no flash either.
+        "BVH" => Accel::from_parts(accel.sides(), accel.grids(), &[], &[]),
+        _ => accel,
+    };
     // A power of another kind changes nothing that is derived.
     let scene = scene.with_materials(&materials).with_accel(accel);
     place("scene.rs", scanray::bake(&scene).to_string().as_bytes());
     place("scene.txt", &text);
-    let without = env::var("SCANRAY_WITHOUT").unwrap_or_else(|_| "NONE".into());
     place(
         "without.rs",
         format!("scanray::Stages::{without}").as_bytes(),

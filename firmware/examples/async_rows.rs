@@ -12,7 +12,11 @@ use embedded_graphics::{
     pixelcolor::{Rgb888, RgbColor},
     prelude::*,
 };
-use scanray::{render::{Budget, Frame, Progress}, tracer_for, Picture, Resolution, Scene};
+use scanray::{
+    Picture, Resolution, Scene,
+    render::{Budget, Frame, Progress},
+    tracer_for,
+};
 use scanray_firmware::hash::Hash;
 
 board::entry!(program, Option<Executor> = None);

@@ -12,7 +12,11 @@ use board::{console, crc32::Crc32};
 use cortex_m::peripheral::{Peripherals, SYST, syst::SystClkSource};
 use critical_section::Mutex;
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
-use scanray::{render::{Budget, Frame}, tracer_for, Picture, Resolution, Scene};
+use scanray::{
+    Picture, Resolution, Scene,
+    render::{Budget, Frame},
+    tracer_for,
+};
 
 const WIDTH: usize = 160;
 type Row = [Rgb888; WIDTH];

@@ -11,7 +11,11 @@ use embedded_graphics::{
     pixelcolor::{Rgb888, RgbColor},
     prelude::*,
 };
-use scanray::{render::{Budget, Progress, Progressive}, tracer_for, Color, Picture, Resolution, Scene};
+use scanray::{
+    Color, Picture, Resolution, Scene,
+    render::{Budget, Progress, Progressive},
+    tracer_for,
+};
 
 const WIDTH: usize = 160;
 const HEIGHT: usize = 120;

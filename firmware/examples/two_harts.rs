@@ -13,7 +13,7 @@ use embedded_graphics::{
     },
     prelude::*,
 };
-use scanray::{render::Exact, tracer_for, Picture, Resolution, Scene};
+use scanray::{Picture, Resolution, Scene, render::Exact, tracer_for};
 
 board::entry!(program);
 

@@ -2,7 +2,10 @@
 
 use board::{console, crc32::Crc32, stack};
 use embedded_graphics::pixelcolor::{Rgb888, RgbColor};
-use scanray::{render::{Exact, PixelSource}, Picture, Resolution};
+use scanray::{
+    Picture, Resolution,
+    render::{Exact, PixelSource},
+};
 
 /// Size of the pictures whose hashes and costs are published.
 pub const RESOLUTION: Resolution = Resolution {

@@ -19,8 +19,8 @@ use crate::ray::{Ray, Side};
 use crate::scalar::Scalar;
 use crate::scene::Scene;
 use crate::shape::{
-    self, Barycentric, Geometry, Kind, ListedShape, Object, ObjectInfo, Primitive, Stored, StoredObject, StoredShape,
-    SurfacePoint, for_each_shape, for_each_stored_shape,
+    self, Barycentric, Geometry, Kind, ListedShape, Object, ObjectInfo, Primitive, Stored,
+    StoredObject, StoredShape, SurfacePoint, for_each_shape, for_each_stored_shape,
 };
 use crate::stages::Stages;
 use crate::vec3::Vec3;

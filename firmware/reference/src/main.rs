@@ -8,7 +8,10 @@
 use std::{env, error::Error, fs, io::Write as _};
 
 use embedded_graphics::pixelcolor::{Gray4, GrayColor, Rgb888, RgbColor};
-use scanray::{render::{Exact, PixelSource}, Picture, Resolution, ScenePools, Tracer};
+use scanray::{
+    Picture, Resolution, ScenePools, Tracer,
+    render::{Exact, PixelSource},
+};
 
 #[path = "../../src/bad_scenes.rs"]
 mod bad_scenes;

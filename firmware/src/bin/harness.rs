@@ -4,7 +4,7 @@
 #![no_main]
 
 use board::stack;
-use scanray::{render::PixelSource, Color, Resolution};
+use scanray::{Color, Resolution, render::PixelSource};
 use scanray_firmware::measure::{self, EMPTY_ROW, RESOLUTION, Row};
 
 board::entry!(program, Row = EMPTY_ROW);

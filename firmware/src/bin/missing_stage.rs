@@ -3,7 +3,7 @@
 #![no_std]
 #![no_main]
 
-use scanray::{Stages, Scene, tracer_for};
+use scanray::{Scene, Stages, tracer_for};
 
 board::entry!(program);
 

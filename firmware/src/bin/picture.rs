@@ -4,7 +4,7 @@
 #![no_main]
 
 use board::stack;
-use scanray::{DEFAULT_MAX_DEPTH, Stages, Scene, Tracer};
+use scanray::{DEFAULT_MAX_DEPTH, Scene, Stages, Tracer};
 use scanray_firmware::measure::{self, EMPTY_ROW, RESOLUTION, Row};
 
 board::entry!(program, Row = EMPTY_ROW);

@@ -11,7 +11,14 @@ use core::hint::black_box;
 
 use board::console;
 use embedded_graphics::{prelude::*, primitives::Rectangle};
-use scanray::{render::{Adaptive, Budget, CenterSample, DisplayColor, PixelSource, Progressive, Quantizer, Supersampled}, tracer_for, Color, Picture, Resolution, Scene};
+use scanray::{
+    Color, Picture, Resolution, Scene,
+    render::{
+        Adaptive, Budget, CenterSample, DisplayColor, PixelSource, Progressive, Quantizer,
+        Supersampled,
+    },
+    tracer_for,
+};
 
 /// How pixels come about.
 #[allow(dead_code, reason = "a build has one of them")]
