@@ -3,7 +3,7 @@
 mod decimal;
 mod error;
 mod lexeme;
-mod numeric;
+mod numeric_dialect;
 
 pub use decimal::{DecimalError, FromDecimal};
 pub use error::{Excerpt, Expected, Found, ParseError, Range};
@@ -32,7 +32,7 @@ impl<T: Scalar + FromDecimal, D: Declared> PoolsMut<'_, T, D> {
 
     fn read(&mut self, text: &[u8]) -> Result<Report, ParseError> {
         self.clear();
-        let result = numeric::read(text, self);
+        let result = numeric_dialect::read(text, self);
         if result.is_err() {
             self.clear();
         }

@@ -3,16 +3,16 @@
 //! [`scene_pools!`](crate::scene_pools) declares pools by name, for whatever a scene holds; [`ScenePools`] are those of the numeric
 //! dialect's world. Everything else borrows them without their capacities, as [`PoolsMut`].
 
-mod named;
-mod paper;
+mod named_pools;
+mod scene_pools;
 
-use named::capacity_of;
+use named_pools::capacity_of;
 #[doc(hidden)]
-pub use named::{
+pub use named_pools::{
     AccelPools, InStored, PoolField, StoredPools, accel_capacities, require_pool,
     stages_of_declaration, stages_of_pools, stored_capacities,
 };
-pub use paper::{Paper, ScenePools};
+pub use scene_pools::{Paper, ScenePools};
 
 use core::fmt;
 use core::marker::PhantomData;

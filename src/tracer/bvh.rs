@@ -1,6 +1,7 @@
 //! Nearest hits and shadows by the bounding-volume hierarchy of a large scene.
 
-use super::{Closest, Observer, TestKind, Tracer, any_stage, stage};
+use super::intersect::Closest;
+use super::{Observer, TestKind, Tracer, any_stage, stage};
 use crate::accel::Walk;
 use crate::ray::Ray;
 use crate::scalar::Scalar;
