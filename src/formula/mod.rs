@@ -5,6 +5,7 @@
 //! and has the same bits.
 
 pub mod camera;
+pub mod disc;
 pub mod optics;
 mod origin_offset;
 pub mod plane;

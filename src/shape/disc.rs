@@ -101,19 +101,14 @@ impl<T: Scalar> Disc<T> {
     /// Distance of the crossing within `0 < t ≤ t_max`.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray<T>, t_max: T) -> Option<T> {
-        let (below, slope) = formula::plane::rise(
-            self.normal.real(),
-            Real(self.height),
-            ray.origin.real(),
-            ray.direction.real(),
-        );
-        let t = (below / slope).0;
+        let (normal, height) = (self.normal.real(), Real(self.height));
+        let t = formula::disc::crossing(normal, height, ray.origin.real(), ray.direction.real()).0;
         if !(t.is_positive() && t <= t_max) {
             return None;
         }
-        // At grazing angles the distance is uncertain; where the point is on the plane is not.
-        let across = self.project(ray, t) - self.center;
-        (across.dot(across) <= self.radius_squared).then_some(t)
+        let place = ray.at(t).real();
+        let eccentricity = formula::disc::eccentricity(place, self.center.real(), normal, height);
+        (eccentricity.0 <= self.radius_squared).then_some(t)
     }
 
     /// The point at a distance, projected onto the plane.

@@ -1,7 +1,7 @@
 //! Shapes that few scenes have: their numbers stand one after another in one list, whatever their kinds, so that a scene does
 //! not grow with the number of kinds, and each object takes no more room than its own numbers.
 
-use super::{Kind, ObjectInfo, Primitive};
+use super::{Disc, Kind, ObjectInfo, Primitive, for_each_stored_shape};
 use crate::scalar::Scalar;
 
 /// Where the numbers of an object are, and what they are.
@@ -55,6 +55,25 @@ pub(crate) trait StoredShape<T: Scalar>: Primitive<T> {
         Self::read(numbers, entry.info)
     }
 }
+
+macro_rules! conversions {
+    ([$($shape:ident)*]) => {
+        $(
+            /// The shape, if it is one; otherwise what it is.
+            impl<T: Scalar> TryFrom<StoredObject<'_, T>> for $shape<T> {
+                type Error = Kind;
+
+                fn try_from(object: StoredObject<'_, T>) -> Result<Self, Kind> {
+                    match object.entry.kind {
+                        Kind::$shape => Ok(Self::of(object)),
+                        other => Err(other),
+                    }
+                }
+            }
+        )*
+    };
+}
+for_each_stored_shape!(conversions);
 
 impl<'a, T> Stored<'a, T> {
     /// No objects.

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use fearless_simd::prelude::*;
 
-use super::bvh::PendingParts;
+use super::bvh::WalkRoom;
 use super::lanes::{Colors, InLanes, Indices, LANES, Mask, Numbers, Rays, Three, clamp};
 
 /// Rays that a batch holds.
@@ -148,8 +148,10 @@ pub(super) struct Batch {
     /// The rays that hit something, object by object.
     order: Column<u32>,
     pub(super) groups: Vec<Group>,
-    /// For single rays in a scene with a hierarchy.
-    pub(super) pending: PendingParts,
+    /// Neighbours that hit the same object, and which that is.
+    runs: Vec<(u32, Range<u32>)>,
+    /// In a scene with a hierarchy.
+    pub(super) room: WalkRoom,
 }
 
 impl Batch {
@@ -170,7 +172,8 @@ impl Batch {
             lit: column(),
             order: column(),
             groups: Vec::new(),
-            pending: PendingParts::new(),
+            runs: Vec::with_capacity(CAPACITY),
+            room: WalkRoom::new(),
         }
     }
 
@@ -212,15 +215,15 @@ impl Batch {
     }
 
     /// Sorts the rays by the object they hit. `counts` holds a 0 for each object, before and after.
-    pub(super) fn group(&mut self, counts: &mut [u32]) {
+    #[inline(always)]
+    pub(super) fn group<S: Simd>(&mut self, simd: S, counts: &mut [u32]) {
         self.groups.clear();
-        let objects = &self.object[..self.len];
-        // Neighbours often hit the same object.
-        for run in objects.chunk_by(|a, b| a == b) {
-            if let Some(count) = counts.get_mut(run[0] as usize) {
+        self.find_runs(simd);
+        for (object, run) in &self.runs {
+            if let Some(count) = counts.get_mut(*object as usize) {
                 if *count == 0 {
                     self.groups.push(Group {
-                        object: run[0],
+                        object: *object,
                         range: 0..0,
                     });
                 }
@@ -234,19 +237,41 @@ impl Batch {
             *count = start as u32;
             start = group.range.end;
         }
-        let mut ray = 0;
-        for run in objects.chunk_by(|a, b| a == b) {
-            if let Some(place) = counts.get_mut(run[0] as usize) {
-                let at = *place as usize;
-                for (slot, ray) in self.order[at..at + run.len()].iter_mut().zip(ray..) {
+        for (object, run) in &self.runs {
+            if let Some(place) = counts.get_mut(*object as usize) {
+                let slots = &mut self.order[*place as usize..][..run.len()];
+                for (slot, ray) in slots.iter_mut().zip(run.start..) {
                     *slot = ray;
                 }
                 *place += run.len() as u32;
             }
-            ray += run.len() as u32;
         }
         for group in &self.groups {
             counts[group.object as usize] = 0;
+        }
+    }
+
+    /// Finds the runs of neighbours that hit the same object.
+    #[inline(always)]
+    fn find_runs<S: Simd>(&mut self, simd: S) {
+        self.runs.clear();
+        let mut start = 0;
+        for at in (0..self.len).step_by(LANES) {
+            let objects = Indices::from_slice(simd, &self.object[at..at + LANES]);
+            let next = Indices::from_slice(simd, &self.object[at + 1..at + 1 + LANES]);
+            let mut ends = !objects.simd_eq(next).to_bitmask() & ((1 << LANES) - 1);
+            if self.len - at <= LANES {
+                // Whatever comes after the last ray, it ends a run.
+                let last = 1 << (self.len - at - 1);
+                ends = ends & (last - 1) | last;
+            }
+            while ends != 0 {
+                let last = at + ends.trailing_zeros() as usize;
+                ends &= ends - 1;
+                let run = start..last as u32 + 1;
+                start = run.end;
+                self.runs.push((self.object[last], run));
+            }
         }
     }
 
@@ -270,6 +295,13 @@ impl Batch {
 
     #[inline(always)]
     pub(super) fn rays<S: Simd>(&self, simd: S, lanes: &Lanes) -> Rays<S> {
+        if lanes.is_run {
+            let at = lanes.rays[0] as usize;
+            return Rays {
+                origin: self.origin.load(simd, at),
+                direction: self.direction.load(simd, at),
+            };
+        }
         Rays {
             origin: self.origin.gather(simd, lanes),
             direction: self.direction.gather(simd, lanes),
@@ -306,11 +338,25 @@ impl Batch {
 
     /// Adds the colours of the rays to those of the hits that cast them, mirror rays first as they were
     /// cast, and removes them.
-    pub(super) fn add_to(&mut self, above: &mut Self) {
-        for ray in 0..self.len {
-            let parent = self.parent[ray] as usize;
-            for (sum, color) in above.color.0.iter_mut().zip(&self.color.0) {
-                sum[parent] += color[ray] * self.weight[ray];
+    #[inline(always)]
+    pub(super) fn add_to<S: Simd>(&mut self, simd: S, above: &mut Self) {
+        let neighbors = Indices::simd_from(simd, [0, 1, 2, 3, 4, 5, 6, 7]);
+        for at in (0..self.len).step_by(LANES) {
+            let count = (self.len - at).min(LANES);
+            let first = self.parent[at];
+            let parents = Indices::from_slice(simd, &self.parent[at..at + LANES]);
+            if count == LANES && parents.simd_eq(neighbors + first).all_true() {
+                let color: Colors<S> = self.color.load(simd, at);
+                let sum: Colors<S> = above.color.load(simd, first as usize);
+                let weight = load(simd, &self.weight, at);
+                above.color.store(first as usize, sum + color * weight);
+                continue;
+            }
+            for ray in at..at + count {
+                let parent = self.parent[ray] as usize;
+                for (sum, color) in above.color.0.iter_mut().zip(&self.color.0) {
+                    sum[parent] += color[ray] * self.weight[ray];
+                }
             }
         }
         self.len = 0;

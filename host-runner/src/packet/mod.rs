@@ -31,7 +31,7 @@ use scanray::formula::{camera, shading};
 use scanray::shape::ObjectInfo;
 use scanray::{
     Background, Color, Material, Resolution, Stages, Tracer, accel::ObjectSet, ray::Side,
-    shape::Object, tracer::Scanline,
+    tracer::Scanline,
 };
 
 use crate::host_tracer::SampleRow;
@@ -39,7 +39,7 @@ use crate::host_tracer::SampleRow;
 use batch::{Batch, CAPACITY, MOST_LIGHTS, NOTHING, NOWHERE};
 use bvh::PacketBvh;
 use lanes::{Colors, InLanes, Indices, LANES, Mask, Numbers, Rays, Vec3s};
-use shapes::{Intersection, Shapes};
+use shapes::{Among, Intersection, LaneObject, Shapes};
 
 /// Traces eight rays at a time through a scene, which it has made lists of.
 #[derive(Debug)]
@@ -67,9 +67,9 @@ struct Workspace {
 }
 
 /// An object with what shading needs to know of it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 struct Target<'a> {
-    object: Object<'a>,
+    object: LaneObject<'a>,
     material: Option<&'a Material>,
     casts_shadow: bool,
     /// Of its front and its back.
@@ -105,7 +105,11 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
         for (index, object) in (0..).zip(objects) {
             let material = material(object.info());
             let casts_shadow = material.is_none_or(Material::casts_shadow);
-            packets.is_complete &= packets.shapes.add(object, index, casts_shadow);
+            let Some(object) = LaneObject::of(object) else {
+                packets.is_complete = false;
+                break;
+            };
+            packets.shapes.add(object.clone(), index, casts_shadow);
             let sides = [true, false].map(|front| reach(Side::new(index, front)));
             packets.objects.push(Target {
                 object,
@@ -243,7 +247,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
                         None => self.hit(simd, batch, at, visible),
                     };
                 }
-                batch.group(counts);
+                batch.group(simd, counts);
                 let groups = std::mem::take(&mut batch.groups);
                 if let Some(bvh) = &self.bvh {
                     if bvh.has_singles() {
@@ -258,7 +262,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
                             && next.is_full()
                         {
                             self.trace(simd, below, counts, visible);
-                            below[0].add_to(batch);
+                            below[0].add_to(simd, batch);
                         }
                         let lanes = batch.lanes(start..group.range.end);
                         self.shade(simd, group.object, batch, &lanes, below.first_mut());
@@ -268,7 +272,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
                     && next.len > 0
                 {
                     self.trace(simd, below, counts, visible);
-                    below[0].add_to(batch);
+                    below[0].add_to(simd, batch);
                 }
                 batch.groups = groups;
                 batch.clamp(simd);
@@ -292,11 +296,13 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
                     None => visible,
                 };
                 let mut closest = Closest::none(simd);
+                let among = Among::Set(candidates);
                 self.shapes
-                    .hit(simd, &rays, leaves >> 1, candidates, &mut closest);
+                    .hit(simd, &rays, leaves >> 1, among, &mut closest);
                 self.keep(simd, &closest, rays.direction, batch, at);
-                let sides = &batch.leaves[at..batch.len.min(at + LANES)];
-                sides.iter().take_while(|side| **side == leaves).count()
+                let sides = Indices::from_slice(simd, &batch.leaves[at..at + LANES]);
+                let same = sides.simd_eq(leaves).to_bitmask().trailing_ones() as usize;
+                same.min(batch.len - at)
             },
         )
     }

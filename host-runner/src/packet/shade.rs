@@ -6,7 +6,8 @@ use scanray::{Light, Material, accel::ObjectSet, number::Number};
 
 use super::batch::{Batch, Lanes};
 use super::lanes::{Colors, InLanes, Indices, LANES, Mask, Numbers, Rays, Vec3s, first_lanes};
-use super::{PacketTracer, Target, shapes};
+use super::shapes::Among;
+use super::{PacketTracer, Target};
 
 /// Intersections with the surface of one object, ready for shading. `Hit` of the core.
 #[derive(Clone, Copy)]
@@ -174,8 +175,9 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
             #[inline(always)]
             || {
                 let mut occluded = !lanes;
+                let among = Among::Set(candidates);
                 self.shapes
-                    .occlude(simd, rays, leaves, t_max, candidates, &mut occluded);
+                    .occlude(simd, rays, leaves, t_max, among, &mut occluded);
                 occluded
             },
         )
@@ -237,7 +239,7 @@ pub(super) fn hits<S: Simd>(
     lanes: &Lanes,
     rays: &Rays<S>,
 ) -> Hits<S> {
-    let at = shapes::point(simd, target.object, rays, batch, lanes);
+    let at = target.object.points(simd, rays, batch, lanes);
     let slope = rays.direction.along(at.normal);
     let entering = slope.simd_le(0.0);
     let normal = Vec3s::select(entering, at.normal, -at.normal);

@@ -4,17 +4,19 @@ use std::cell::Cell;
 use std::path::PathBuf;
 
 use fearless_simd::Level;
-use scanray::shape::{ObjectInfo, Sphere};
+use scanray::shape::{ObjectInfo, Sphere, Stored};
 use scanray::{
     Background, Camera, Color, Light, Material, MaterialDescription, Resolution, Scene, SceneError,
-    ScenePools, Tracer, Vec3, camera::Subpixel, render::Supersampled,
+    Tracer, Vec3, camera::Subpixel, render::Supersampled, shape::Shape,
 };
 
 use super::PacketTracer;
 use super::bvh::PacketBvh;
 use crate::host_tracer::SampleRow;
 
-type Pools = ScenePools<f32, 64, 64, 64, 192, 4, 192, 128>;
+scanray::scene_pools! {
+    struct Pools { spheres: 64, planes: 64, triangles: 64, discs: 64, materials: 256, lights: 4 }
+}
 
 /// That of the host, so that everything is compiled once.
 pub(super) const STACK: usize = crate::host_tracer::MAX_DEPTH;
@@ -315,6 +317,94 @@ fn draws_more_rays_of_a_depth_than_a_batch_holds() {
     assert_same("glass spheres", pools.as_scene(), 1201, 2, 6);
 }
 
+/// A disc across an axis that is `slant` off the one of the camera.
+fn disc(center: Vec3, radius: f32, slant: f32) -> Shape {
+    Shape::Disc {
+        center,
+        normal: Vec3::new(slant, 0.5 * slant, -1.0),
+        radius,
+    }
+}
+
+/// Discs that shine, mirror and cast shadows, among objects of all other shapes, `crowd` more of them.
+fn discs(crowd: usize) -> Box<Pools> {
+    let random = Random::new(crowd as u64);
+    let mut pools = Box::new(Pools::new());
+    let mut filling = Pools::as_mut(&mut pools);
+    filling.set_ambient(0.2);
+    for x in [-4.0, 3.0] {
+        let light = Light {
+            position: Vec3::new(x, 5.0, -3.0),
+            specular: Color::new(0.5, 0.5, 0.5),
+            diffuse: Color::new(0.6, 0.5, 0.4),
+        };
+        filling.add_light(light).unwrap();
+    }
+    let matt = MaterialDescription {
+        diffuse: Color::new(0.5, 0.6, 0.7),
+        specular: Color::new(0.5, 0.5, 0.5),
+        shininess: 20.0,
+        ..Default::default()
+    };
+    let mirror = MaterialDescription {
+        reflection: 0.7,
+        ..matt
+    };
+    let floor = Vec3::new(0.0, 1.0, 0.0);
+    filling.add_plane(floor, 1.0, mirror).unwrap();
+    filling
+        .add_sphere(Vec3::new(0.3, 0.1, 5.0), 0.8, mirror)
+        .unwrap();
+    let corners = [(-2.0, 6.0), (2.0, 6.0), (0.0, 7.0)].map(|(x, z)| Vec3::new(x, z - 5.5, z));
+    filling.add_triangle(corners, matt).unwrap();
+    // Lies just above the floor, and is seen in it from below.
+    let lying = Shape::Disc {
+        center: Vec3::new(-0.5, -0.9, 4.0),
+        normal: floor,
+        radius: 1.2,
+    };
+    filling.add(lying, matt).unwrap();
+    for (x, slant) in [(-1.2, 0.5), (0.0, 0.0), (1.2, -30.0)] {
+        let center = Vec3::new(x, 0.2, 3.0);
+        filling.add(disc(center, 0.4, slant), glass(0.3)).unwrap();
+    }
+    for index in 0..crowd {
+        let center = random.point(2.0, false) + Vec3::new(0.0, 0.0, 5.0);
+        let (radius, slant) = (random.between(0.05, 0.3), random.between(-2.0, 2.0));
+        let material = random.pick(&[matt, mirror]);
+        match index % 3 {
+            0 => filling.add_sphere(center, radius, material),
+            _ => filling.add(disc(center, radius, slant), material),
+        }
+        .unwrap();
+    }
+    pools.prepare();
+    pools
+}
+
+#[test]
+fn draws_discs_among_other_shapes_to_the_bit() {
+    let resolution = Resolution {
+        width: 97,
+        height: 61,
+    };
+    // With candidates, with more than are told apart, and with a hierarchy.
+    for (crowd, has_bvh) in [(0, false), (30, false), (70, true)] {
+        let pools = discs(crowd);
+        let scene = pools.as_scene();
+        assert_eq!(scene.accel().bvh().is_some(), has_bvh, "{crowd} more");
+        let tracer = Tracer::new(scene).with_bvh().with_stack::<STACK>();
+        assert!(PacketTracer::new(tracer).is_complete);
+        let name = format!("discs, {crowd} more");
+        let brute_force = scene.without_accel();
+        assert_same_as(&name, scene, brute_force, resolution, 4);
+        assert_same_as(&name, brute_force, scene, resolution, 4);
+        // A disc that is not there is missed.
+        let pixel = |scene| Tracer::new(scene).with_resolution(resolution).pixel(48, 29);
+        assert_ne!(pixel(scene), pixel(scene.with_stored(Stored::NONE)));
+    }
+}
+
 #[test]
 fn the_first_of_coincident_objects_of_any_shapes_wins() {
     // Along the axis of the camera each of them is hit at exactly 2.
@@ -326,14 +416,18 @@ fn the_first_of_coincident_objects_of_any_shapes_wins() {
         [2, 0, 1],
         [2, 1, 0],
     ];
-    for order in orders {
+    // With the disc at each place.
+    for (order, at) in (0..24).map(|i| (orders[i / 4], i % 4)) {
+        let mut order = order.to_vec();
+        order.insert(at, 3);
         let mut pools = Box::new(Pools::new());
         let mut filling = Pools::as_mut(&mut pools);
         filling.set_ambient(1.0);
-        for shape in order {
+        for shape in &order {
             match shape {
                 0 => filling.add_sphere(Vec3::new(0.0, 0.0, 4.0), 2.0, glass(0.1)),
                 1 => filling.add_plane(Vec3::new(0.0, 0.0, 1.0), -2.0, glass(0.2)),
+                3 => filling.add(disc(Vec3::new(0.0, 0.0, 2.0), 1.0, 0.4), glass(0.4)),
                 _ => {
                     let corner = |x, y| Vec3::new(x, y, 2.0);
                     let corners = [corner(-4.0, -4.0), corner(4.0, -4.0), corner(0.0, 4.0)];
@@ -416,7 +510,7 @@ impl Random {
         }
     }
 
-    /// Adds spheres and triangles of all sizes, as many as there is room for, but for a few.
+    /// Adds spheres, triangles and discs of all sizes, as many as there is room for, but for a few.
     fn crowd(&self, pools: &mut Pools) {
         let mut pools = pools.as_mut();
         let scale = self.pick(&[1.0, 1.0, 1e-3, 1e5]);
@@ -427,10 +521,10 @@ impl Random {
             let at = self.point(3.0 * scale, grid);
             let corner = || at + self.point(size, grid);
             // What does not fit is left out.
-            let _ = if self.one_in(2) {
-                pools.add_sphere(at, size, material)
-            } else {
-                pools.add_triangle([corner(), corner(), corner()], material)
+            let _ = match self.below(3) {
+                0 => pools.add_sphere(at, size, material),
+                1 => pools.add_triangle([corner(), corner(), corner()], material),
+                _ => pools.add(disc(at, size, self.between(-3.0, 3.0)), material),
             };
         }
     }
@@ -477,8 +571,8 @@ impl Random {
             }
         };
         // In any order of shapes, some of them twice.
-        let (spheres, planes, triangles) = (count(8), count(4), count(10));
-        let mut shapes = [vec![0; spheres], vec![1; planes], vec![2; triangles]].concat();
+        let counts = [count(8), count(4), count(10), count(4)];
+        let mut shapes: Vec<usize> = (0..).zip(counts).flat_map(|(it, n)| vec![it; n]).collect();
         while !shapes.is_empty() {
             let shape = shapes.swap_remove(self.below(shapes.len()));
             let copies = if shapes.len() < 20 && self.one_in(6) {
@@ -497,6 +591,15 @@ impl Random {
                 check(match shape {
                     0 => pools.add_sphere(points[0], size, material()),
                     1 => pools.add_plane(points[0], size, material()),
+                    3 => {
+                        let [center, normal, _] = points;
+                        let disc = Shape::Disc {
+                            center,
+                            normal,
+                            radius: size,
+                        };
+                        pools.add(disc, material())
+                    }
                     _ => pools.add_triangle(points, material()),
                 });
             }

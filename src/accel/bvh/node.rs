@@ -41,8 +41,8 @@ impl<T> Bvh<'_, T> {
 /// tests.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BvhNode<T = f32> {
-    /// The lowest and the highest coordinates, by axis.
-    bounds: [[T; 3]; 2],
+    /// The lowest and the highest coordinate of each axis.
+    bounds: [[T; 2]; 3],
     first: u32,
     /// The number of entries of a leaf; otherwise the axis, marked.
     kind: u32,
@@ -77,7 +77,7 @@ impl<T: Scalar> BvhNode<T> {
             NodeContent::Inner { first, axis } => (first, axis as u32 | Self::INNER),
         };
         Self {
-            bounds: [[low.x, low.y, low.z], [high.x, high.y, high.z]],
+            bounds: [[low.x, high.x], [low.y, high.y], [low.z, high.z]],
             first,
             kind,
         }
@@ -85,19 +85,19 @@ impl<T: Scalar> BvhNode<T> {
 
     /// The corner of the lowest coordinates.
     pub const fn low(&self) -> Vec3<T> {
-        let [[x, y, z], _] = self.bounds;
+        let [[x, _], [y, _], [z, _]] = self.bounds;
         Vec3::new(x, y, z)
     }
 
     /// The corner of the highest coordinates.
     pub const fn high(&self) -> Vec3<T> {
-        let [_, [x, y, z]] = self.bounds;
+        let [[_, x], [_, y], [_, z]] = self.bounds;
         Vec3::new(x, y, z)
     }
 
-    /// The lowest and the highest coordinates, by axis.
+    /// The lowest and the highest coordinate of each axis.
     #[inline(always)]
-    pub(crate) const fn bounds(&self) -> &[[T; 3]; 2] {
+    pub(crate) const fn bounds(&self) -> &[[T; 2]; 3] {
         &self.bounds
     }
 

@@ -22,10 +22,10 @@ pub(crate) struct Walk<'a, T> {
 struct Axis<T> {
     /// 1 by the component of the direction.
     inverse: T,
-    /// Component of the origin, to be compared with the lowest and with the highest coordinate of a
-    /// box: the margin for the ray is in it.
+    /// Component of the origin, to be compared with the coordinate where the ray enters a box and with the one where it
+    /// leaves it: the margin for the ray is in it.
     origin: [T; 2],
-    /// Which of the two the ray hits first.
+    /// Which of the lowest and the highest coordinate of a box the ray hits first.
     entry: usize,
 }
 
@@ -37,11 +37,17 @@ impl<'a, T: Scalar> Walk<'a, T> {
         let margin = size * (T::EPSILON * T::from_i32(64));
         let axis = |origin: T, direction: T| {
             let inverse = T::ONE / direction;
+            let (lower, upper) = (origin - margin, origin + margin);
+            // The sign of the inverse, because −0 has none that shows.
+            let is_downward = inverse < T::ZERO;
             Axis {
                 inverse,
-                origin: [origin + margin, origin - margin],
-                // The sign of the inverse, because −0 has none that shows.
-                entry: usize::from(inverse < T::ZERO),
+                origin: if is_downward {
+                    [lower, upper]
+                } else {
+                    [upper, lower]
+                },
+                entry: usize::from(is_downward),
             }
         };
         let Vec3 { x, y, z } = d.abs();
@@ -91,16 +97,15 @@ impl<'a, T: Scalar> Walk<'a, T> {
     /// Whether the ray may hit something in the box at `0 < t ≤ t_max`.
     #[inline(always)]
     fn may_hit(&self, node: &BvhNode<T>, t_max: T) -> bool {
-        let bounds = node.bounds();
-        let slab = |i: usize, axis: &Axis<T>| {
+        let slab = |axis: &Axis<T>, bounds: &[T; 2]| {
             let (entry, exit) = (axis.entry & 1, !axis.entry & 1);
             [
-                (bounds[entry][i] - axis.origin[entry]) * axis.inverse,
-                (bounds[exit][i] - axis.origin[exit]) * axis.inverse,
+                (bounds[entry] - axis.origin[0]) * axis.inverse,
+                (bounds[exit] - axis.origin[1]) * axis.inverse,
             ]
         };
-        let [x, y, z] = &self.axes;
-        let (x, y, z) = (slab(0, x), slab(1, y), slab(2, z));
+        let ([x, y, z], [of_x, of_y, of_z]) = (&self.axes, node.bounds());
+        let (x, y, z) = (slab(x, of_x), slab(y, of_y), slab(z, of_z));
         // Comparisons with NaN keep what is there.
         let later = |a: T, b: T| if b > a { b } else { a };
         let earlier = |a: T, b: T| if b < a { b } else { a };

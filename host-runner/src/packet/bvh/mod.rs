@@ -14,13 +14,12 @@ use fearless_simd::prelude::*;
 use scanray::accel::{Bvh, BvhNode, NodeContent};
 use scanray::{Vec3, number::Number};
 
-pub(super) use self::single::PendingParts;
-use self::single::Single;
+use self::single::{PendingParts, Single};
 use self::wide::{WideBvh, WidePart};
 use super::batch::{Batch, Group, NOTHING};
 use super::lanes::{InLanes, Indices, LANES, Mask, Numbers, Rays, Vec3s, first_lanes};
 use super::shade::{TowardLight, hits};
-use super::shapes::LeafObject;
+use super::shapes::{Among, LeafObject};
 use super::{Closest, PacketTracer};
 
 /// The hierarchy of a scene in other layouts.
@@ -114,7 +113,7 @@ impl<'a> PairBvh<'a> {
                     let entries = &bvh.entries[first as usize..][..count as usize];
                     new.leaves.extend(entries.iter().map(|entry| {
                         let target = &packets.objects[*entry as usize];
-                        LeafObject::new(target.object, *entry, target.casts_shadow)
+                        LeafObject::new(target.object.clone(), *entry, target.casts_shadow)
                     }));
                     (start, count as u8)
                 }
@@ -148,8 +147,8 @@ impl<'a> PairBvh<'a> {
 }
 
 /// A walk of eight rays through a hierarchy.
-struct Walk<'a, S: Simd> {
-    bvh: &'a PacketBvh<'a>,
+struct Walk<'w, 'a, S: Simd> {
+    bvh: &'w PacketBvh<'a>,
     inverse: Vec3s<S>,
     /// The origins, moved by the margin for the rays, to compare with the lowest and the highest
     /// coordinates of boxes.
@@ -159,12 +158,30 @@ struct Walk<'a, S: Simd> {
     /// Whether most rays hit the upper one of two nodes first, by axis.
     upper_first: [usize; 3],
     /// What is still to be visited, the next one last.
-    pending: [Pending; Bvh::<f32>::MAX_DEPTH + 1],
+    pending: &'w mut WaitingPairs,
     len: usize,
 }
 
+/// Room for what walks have still to visit: they do not begin with clearing it.
+#[derive(Debug)]
+pub(super) struct WalkRoom {
+    pairs: Box<WaitingPairs>,
+    parts: PendingParts,
+}
+
+type WaitingPairs = [Pending; Bvh::<f32>::MAX_DEPTH + 1];
+
+impl WalkRoom {
+    pub(super) fn new() -> Self {
+        Self {
+            pairs: Box::default(),
+            parts: PendingParts::new(),
+        }
+    }
+}
+
 /// A pair or a leaf, and the rays that may hit something in it, a bit for each.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Pending {
     first: u32,
     /// Objects of a leaf; 0 for a pair.
@@ -173,11 +190,11 @@ struct Pending {
 }
 
 /// Where a walk comes to.
-enum Visit<'a> {
+enum Visit<'w, 'a> {
     /// Objects that some of the rays may hit.
-    Leaf(&'a [LeafObject<'a>]),
+    Leaf(&'w [LeafObject<'a>]),
     /// A part of the hierarchy that only a few of the rays may hit, a bit for each.
-    Few(&'a WideBvh, WidePart, u8),
+    Few(&'w WideBvh, WidePart, u8),
 }
 
 /// The axis of the largest component of each direction.
@@ -189,9 +206,14 @@ enum Leading<S: Simd> {
     Mixed(Mask<S>, Mask<S>),
 }
 
-impl<'a, S: Simd> Walk<'a, S> {
+impl<'w, 'a, S: Simd> Walk<'w, 'a, S> {
     #[inline(always)]
-    fn new(bvh: &'a PacketBvh<'a>, rays: &Rays<S>, active: Mask<S>) -> Self {
+    fn new(
+        bvh: &'w PacketBvh<'a>,
+        pending: &'w mut WaitingPairs,
+        rays: &Rays<S>,
+        active: Mask<S>,
+    ) -> Self {
         let (o, d) = (rays.origin, rays.direction);
         let one = d.x.constant(1.0);
         let size = o.abs();
@@ -214,6 +236,11 @@ impl<'a, S: Simd> Walk<'a, S> {
         } else {
             Leading::Mixed(x, y)
         };
+        pending[0] = Pending {
+            first: bvh.pairs.root.0,
+            count: bvh.pairs.root.1,
+            rays: active.to_bitmask() as u8,
+        };
         Self {
             bvh,
             inverse: Vec3s::new(one / d.x, one / d.y, one / d.z),
@@ -225,11 +252,7 @@ impl<'a, S: Simd> Walk<'a, S> {
                 most(d.y.simd_lt(0.0)),
                 most(d.z.simd_lt(0.0)),
             ],
-            pending: [Pending {
-                first: bvh.pairs.root.0,
-                count: bvh.pairs.root.1,
-                rays: active.to_bitmask() as u8,
-            }; Bvh::<f32>::MAX_DEPTH + 1],
+            pending,
             len: 1,
         }
     }
@@ -242,7 +265,7 @@ impl<'a, S: Simd> Walk<'a, S> {
         simd: S,
         t_max: Numbers<S>,
         active: Mask<S>,
-    ) -> Option<Visit<'a>> {
+    ) -> Option<Visit<'w, 'a>> {
         let pairs = &self.bvh.pairs;
         while self.len > 0 {
             self.len -= 1;
@@ -371,14 +394,16 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                 let active = first_lanes(simd, count);
                 let leaves = Indices::from_slice(simd, &batch.leaves[at..at + LANES]) >> 1;
                 let mut closest = Closest::none(simd);
-                self.shapes.hit_unbounded(simd, &rays, leaves, &mut closest);
-                let mut walk = Walk::new(bvh, &rays, active);
+                self.shapes
+                    .hit(simd, &rays, leaves, Among::Unbounded, &mut closest);
+                let WalkRoom { pairs, parts } = &mut batch.room;
+                let mut walk = Walk::new(bvh, pairs, &rays, active);
                 while let Some(visit) = walk.next::<SINGLES>(simd, closest.t, active) {
                     let objects = match visit {
                         Visit::Leaf(objects) => objects,
                         Visit::Few(wide, part, lanes) => {
                             let single = |lane| Single::new(&walk, &rays, lane, wide, part);
-                            closest.offer_singly(simd, lanes, single, &mut batch.pending);
+                            closest.offer_singly(simd, lanes, single, parts);
                             continue;
                         }
                     };
@@ -433,7 +458,7 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                             simd,
                             bvh,
                             &shadow,
-                            &mut batch.pending,
+                            &mut batch.room,
                             objects,
                             distance,
                             facing,
@@ -457,7 +482,7 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
         simd: S,
         bvh: &PacketBvh<'_>,
         rays: &Rays<S>,
-        pending: &mut PendingParts,
+        room: &mut WalkRoom,
         leaves: Indices<S>,
         t_max: Numbers<S>,
         lanes: Mask<S>,
@@ -466,9 +491,11 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
             #[inline(always)]
             || {
                 let mut occluded = !lanes;
+                let among = Among::Unbounded;
                 self.shapes
-                    .occlude_unbounded(simd, rays, leaves, t_max, &mut occluded);
-                let mut walk = Walk::new(bvh, rays, lanes);
+                    .occlude(simd, rays, leaves, t_max, among, &mut occluded);
+                let WalkRoom { pairs, parts } = room;
+                let mut walk = Walk::new(bvh, pairs, rays, lanes);
                 while !occluded.all_true()
                     && let Some(visit) = walk.next::<SINGLES>(simd, t_max, !occluded)
                 {
@@ -477,7 +504,7 @@ impl<const STACK: usize> PacketTracer<'_, STACK> {
                         Visit::Few(wide, part, lanes) => {
                             for lane in bits(lanes) {
                                 let single = Single::new(&walk, rays, lane, wide, part);
-                                if single.is_occluded(simd, pending, t_max[lane]) {
+                                if single.is_occluded(simd, parts, t_max[lane]) {
                                     occluded |= Mask::from_bitmask(simd, 1 << lane);
                                 }
                             }

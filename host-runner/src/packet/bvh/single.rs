@@ -106,7 +106,7 @@ impl<'w> Single<'w> {
     /// A ray of a walk.
     #[inline(always)]
     pub(super) fn new<S: Simd>(
-        walk: &Walk<'_, S>,
+        walk: &Walk<'_, '_, S>,
         rays: &Rays<S>,
         lane: usize,
         bvh: &'w WideBvh,

@@ -60,7 +60,7 @@ pub(super) struct WideLeaf {
 }
 
 impl WideLeaf {
-    fn new<'o>(objects: impl Iterator<Item = &'o LeafObject<'o>>) -> Self {
+    fn new<'o, 'a: 'o>(objects: impl Iterator<Item = &'o LeafObject<'a>>) -> Self {
         let mut leaf = Self {
             center: [[0.0; LANES]; 3],
             // Less every square is no square.

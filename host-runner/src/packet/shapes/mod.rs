@@ -1,26 +1,23 @@
 //! The shapes that have lanes: what the tracer of eight rays asks of each, and the one list of them.
 //!
-//! A shape implements [`LaneShape`] in a file of its own and stands in [`for_each_shape!`]; nothing else here knows of it.
+//! A shape implements [`LaneShape`] in a file of its own and stands in [`lane_shapes!`]; nothing else here knows of it.
 //! Scenes with a shape that does not are drawn by the core.
 
+mod disc;
 mod plane;
 mod sphere;
 mod triangle;
 
+use std::borrow::Borrow;
+use std::fmt::Debug;
+
 use fearless_simd::prelude::*;
-use scanray::shape::{Plane, Sphere, Triangle};
+use scanray::shape::{Disc, Plane, Sphere, Triangle};
 use scanray::{Vec3, accel::ObjectSet, shape::Object};
 
 use super::Closest;
 use super::batch::{Batch, Lanes};
 use super::lanes::{Indices, Mask, Numbers, Rays, Vec3s};
-
-/// The one list of the shapes that have lanes, with the names of their lists: calls a macro with it.
-macro_rules! for_each_shape {
-    ($then:ident $($with:tt)*) => {
-        $then! { [Sphere spheres, Plane planes, Triangle triangles] $($with)* }
-    };
-}
 
 /// Eight rays and a shape: `Primitive` of the core. The formulas are the core's; which lanes they hold for is decided here.
 pub(super) trait LaneShape: Sized {
@@ -30,6 +27,12 @@ pub(super) trait LaneShape: Sized {
     const IS_ITS_BOUNDS: bool;
     /// A ray that leaves it cannot hit it again.
     const IS_FLAT: bool;
+
+    /// How one of a scene is held: by a reference, unless the scene has but its numbers.
+    type Held<'a>: Borrow<Self> + Clone + Debug + Send + Sync;
+
+    /// The object, if it is of this shape.
+    fn of(object: Object<'_>) -> Option<Self::Held<'_>>;
 
     /// What tests of what has bounds begin with: a sphere around it, or whatever they take it for. A leaf of a hierarchy has it at hand.
     fn bounds(&self) -> Bounds;
@@ -85,288 +88,328 @@ pub(super) struct Point<S: Simd> {
     pub(super) offset: Numbers<S>,
 }
 
-/// An object among those of its shape.
-#[derive(Clone, Copy, Debug)]
-struct Listed<'a, O> {
-    shape: &'a O,
-    /// Its index among all objects.
-    index: u32,
-    casts_shadow: bool,
+/// The objects that rays leave, which flat ones of them cannot hit again.
+pub(super) trait Left<S: Simd>: Copy {
+    /// All rays leave the object of an index.
+    fn is_left_by_all(self, index: u32) -> bool;
+
+    /// Of some lanes those that leave another object.
+    fn others(self, lanes: Mask<S>, index: u32) -> Mask<S>;
 }
 
-macro_rules! shapes {
-    ([$($shape:ident $list:ident),*]) => {
+/// The same for all rays.
+impl<S: Simd> Left<S> for u32 {
+    #[inline(always)]
+    fn is_left_by_all(self, index: u32) -> bool {
+        self == index
+    }
+
+    #[inline(always)]
+    fn others(self, lanes: Mask<S>, _: u32) -> Mask<S> {
+        lanes
+    }
+}
+
+/// Any objects.
+impl<S: Simd> Left<S> for Indices<S> {
+    #[inline(always)]
+    fn is_left_by_all(self, _: u32) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn others(self, lanes: Mask<S>, index: u32) -> Mask<S> {
+        lanes & !self.simd_eq(index)
+    }
+}
+
+/// Which objects rays are tested against.
+#[derive(Clone, Copy)]
+pub(super) enum Among {
+    /// The members of a set.
+    Set(ObjectSet),
+    /// What no hierarchy holds.
+    Unbounded,
+}
+
+macro_rules! lane_shapes {
+    ($($list:ident: $shape:ident),* $(,)?) => {
         /// The objects of a scene, by shape.
         #[derive(Debug, Default)]
         pub(super) struct Shapes<'a> {
-            $($list: Vec<Listed<'a, $shape>>,)*
+            $($list: List<'a, $shape>,)*
         }
-    };
-}
-for_each_shape!(shapes);
 
-impl<'a> Shapes<'a> {
-    /// Adds an object of an index, unless its shape has no lanes.
-    pub(super) fn add(&mut self, object: Object<'a>, index: u32, casts_shadow: bool) -> bool {
-        macro_rules! list {
-            ([$($shape:ident $list:ident),*]) => {
+        /// An object of any shape that has lanes.
+        #[derive(Clone, Debug)]
+        pub(super) enum LaneObject<'a> {
+            $($shape(<$shape as LaneShape>::Held<'a>),)*
+        }
+
+        impl<'a> LaneObject<'a> {
+            /// The object, if its shape has lanes.
+            pub(super) fn of(object: Object<'a>) -> Option<Self> {
+                $(if let Some(held) = $shape::of(object) {
+                    return Some(Self::$shape(held));
+                })*
+                None
+            }
+        }
+
+        impl<'a> Shapes<'a> {
+            /// Adds an object of an index.
+            pub(super) fn add(&mut self, object: LaneObject<'a>, index: u32, casts_shadow: bool) {
                 match object {
-                    $(Object::$shape(shape) => self.$list.push(Listed { shape, index, casts_shadow }),)*
-                    _ => return false,
+                    $(LaneObject::$shape(held) => self.$list.add(held, index, casts_shadow),)*
+                }
+            }
+        }
+
+        /// Does something with the list of each shape.
+        macro_rules! with_each_list {
+            ($shapes:expr, $it:ident => $do:expr) => {
+                $({ let $it = &$shapes.$list; $do })*
+            };
+        }
+
+        /// Does something with an object of any shape.
+        macro_rules! with_object {
+            ($object:expr, $it:ident => $do:expr) => {
+                match $object {
+                    $(LaneObject::$shape(held) => {
+                        let $it: &$shape = held.borrow();
+                        $do
+                    })*
                 }
             };
         }
-        for_each_shape!(list);
-        true
+    };
+}
+
+// The one list.
+lane_shapes! {
+    spheres: Sphere,
+    planes: Plane,
+    triangles: Triangle,
+    discs: Disc,
+}
+
+/// The objects of a shape.
+#[derive(Debug)]
+struct List<'a, O: LaneShape>(Vec<Listed<O::Held<'a>>>);
+
+/// An object among those of its shape.
+#[derive(Debug)]
+struct Listed<H> {
+    held: H,
+    /// Its index among all objects.
+    index: u32,
+    /// The set of it alone.
+    alone: ObjectSet,
+    casts_shadow: bool,
+}
+
+impl<O: LaneShape> Default for List<'_, O> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
+impl<'a, O: LaneShape> List<'a, O> {
+    fn add(&mut self, held: O::Held<'a>, index: u32, casts_shadow: bool) {
+        self.0.push(Listed {
+            held,
+            index,
+            alone: ObjectSet::NONE.with(index as usize),
+            casts_shadow,
+        });
     }
 
+    /// The objects that rays are tested against, with their indices, and whether they cast shadows.
+    #[inline(always)]
+    fn among(&self, among: Among) -> impl Iterator<Item = (&O, u32, bool)> {
+        let (all, set) = match among {
+            Among::Set(set) => (&*self.0, set),
+            Among::Unbounded if O::HAS_BOUNDS => (&[][..], ObjectSet::ALL),
+            Among::Unbounded => (&*self.0, ObjectSet::ALL),
+        };
+        all.iter()
+            .filter(move |listed| set.intersection(listed.alone) != ObjectSet::NONE)
+            .map(|listed| (listed.held.borrow(), listed.index, listed.casts_shadow))
+    }
+
+    #[inline(always)]
+    fn hit<S: Simd>(
+        &self,
+        simd: S,
+        rays: &Rays<S>,
+        left: impl Left<S>,
+        among: Among,
+        closest: &mut Closest<S>,
+    ) {
+        for (shape, index, _) in self.among(among) {
+            offer(simd, (shape, shape.bounds(), index), rays, left, closest);
+        }
+    }
+
+    #[inline(always)]
+    fn occlude<S: Simd>(
+        &self,
+        simd: S,
+        rays: &Rays<S>,
+        left: impl Left<S>,
+        t_max: Numbers<S>,
+        among: Among,
+        occluded: &mut Mask<S>,
+    ) {
+        for (shape, index, casts_shadow) in self.among(among) {
+            if !casts_shadow {
+                continue;
+            }
+            // Others take less than to ask first.
+            if !O::IS_ITS_BOUNDS && O::HAS_BOUNDS && occluded.all_true() {
+                break;
+            }
+            let object = (shape, shape.bounds(), index);
+            occlude(simd, object, rays, left, t_max, occluded);
+        }
+    }
+
+    /// How many there are; nothing if they have bounds and are no spheres.
+    fn spheres(&self) -> Option<usize> {
+        let count = self.0.len();
+        match (O::IS_ITS_BOUNDS, O::HAS_BOUNDS) {
+            (true, _) => Some(count),
+            (false, true) if count > 0 => None,
+            _ => Some(0),
+        }
+    }
+}
+
+impl Shapes<'_> {
     /// How many there are if all that have bounds are spheres, else 0.
     pub(super) fn spheres_alone(&self) -> usize {
-        let mut spheres = 0;
-        macro_rules! count {
-            ([$($shape:ident $list:ident),*]) => {
-                $(
-                    if $shape::IS_ITS_BOUNDS {
-                        spheres += self.$list.len();
-                    } else if $shape::HAS_BOUNDS && !self.$list.is_empty() {
-                        return 0;
-                    }
-                )*
-            };
-        }
-        for_each_shape!(count);
-        spheres
+        let mut spheres = Some(0);
+        with_each_list!(self, list => spheres = spheres.zip(list.spheres()).map(|(a, b)| a + b));
+        spheres.unwrap_or(0)
     }
 
-    /// Offers what rays can hit that all leave the same object, or none.
+    /// Offers objects to rays.
     #[inline(always)]
     pub(super) fn hit<S: Simd>(
         &self,
         simd: S,
         rays: &Rays<S>,
-        leaves: u32,
-        candidates: ObjectSet,
+        left: impl Left<S>,
+        among: Among,
         closest: &mut Closest<S>,
     ) {
-        macro_rules! offer {
-            ([$($shape:ident $list:ident),*]) => {
-                $(
-                    for listed in among(&self.$list, candidates) {
-                        if $shape::IS_FLAT && listed.index == leaves {
-                            continue;
-                        }
-                        let intersection = listed.shape.intersections(simd, listed.shape.bounds(), rays);
-                        if let Some(intersection) = intersection {
-                            closest.offer(simd, &intersection, listed.index);
-                        }
-                    }
-                )*
-            };
-        }
-        for_each_shape!(offer);
+        with_each_list!(self, list => list.hit(simd, rays, left, among, closest));
     }
 
-    /// Adds the lanes in which an object casts a shadow before `t_max`, of rays that all leave the same object.
+    /// Adds the lanes in which an object casts a shadow before `t_max`.
     #[inline(always)]
     pub(super) fn occlude<S: Simd>(
         &self,
         simd: S,
         rays: &Rays<S>,
-        leaves: u32,
+        left: impl Left<S>,
         t_max: Numbers<S>,
-        candidates: ObjectSet,
+        among: Among,
         occluded: &mut Mask<S>,
     ) {
-        macro_rules! occlude {
-            ([$($shape:ident $list:ident),*]) => {
-                $(
-                    for listed in among(&self.$list, candidates) {
-                        if !listed.casts_shadow || $shape::IS_FLAT && listed.index == leaves {
-                            continue;
-                        }
-                        // Others take less than to ask first.
-                        if !$shape::IS_ITS_BOUNDS && $shape::HAS_BOUNDS && occluded.all_true() {
-                            break;
-                        }
-                        let bounds = listed.shape.bounds();
-                        if let Some(lanes) = listed.shape.occluded(simd, bounds, rays, t_max) {
-                            *occluded |= lanes;
-                        }
-                    }
-                )*
-            };
-        }
-        for_each_shape!(occlude);
-    }
-
-    /// Offers what no hierarchy holds, to rays that may leave any objects.
-    #[inline(always)]
-    pub(super) fn hit_unbounded<S: Simd>(
-        &self,
-        simd: S,
-        rays: &Rays<S>,
-        leaves: Indices<S>,
-        closest: &mut Closest<S>,
-    ) {
-        macro_rules! offer {
-            ([$($shape:ident $list:ident),*]) => {
-                $(
-                    if !$shape::HAS_BOUNDS {
-                        for listed in &self.$list {
-                            let object = (listed.shape, Bounds::default(), listed.index);
-                            offer_one(simd, object, rays, leaves, closest);
-                        }
-                    }
-                )*
-            };
-        }
-        for_each_shape!(offer);
-    }
-
-    /// Adds the lanes in which what no hierarchy holds casts a shadow before `t_max`.
-    #[inline(always)]
-    pub(super) fn occlude_unbounded<S: Simd>(
-        &self,
-        simd: S,
-        rays: &Rays<S>,
-        leaves: Indices<S>,
-        t_max: Numbers<S>,
-        occluded: &mut Mask<S>,
-    ) {
-        macro_rules! occlude {
-            ([$($shape:ident $list:ident),*]) => {
-                $(
-                    if !$shape::HAS_BOUNDS {
-                        for listed in &self.$list {
-                            if listed.casts_shadow {
-                                let object = (listed.shape, Bounds::default(), listed.index);
-                                occlude_by_one(simd, object, rays, leaves, t_max, occluded);
-                            }
-                        }
-                    }
-                )*
-            };
-        }
-        for_each_shape!(occlude);
+        with_each_list!(self, list => list.occlude(simd, rays, left, t_max, among, occluded));
     }
 }
 
-/// The members of a set.
+/// Offers an object to rays.
 #[inline(always)]
-fn among<'l, 'a, O>(
-    list: &'l [Listed<'a, O>],
-    set: ObjectSet,
-) -> impl Iterator<Item = &'l Listed<'a, O>> {
-    list.iter()
-        .filter(move |listed| set.contains(listed.index as usize))
-}
-
-/// Offers an object to rays that may leave any objects.
-#[inline(always)]
-fn offer_one<S: Simd, O: LaneShape>(
+fn offer<S: Simd, O: LaneShape>(
     simd: S,
     (shape, bounds, index): (&O, Bounds, u32),
     rays: &Rays<S>,
-    leaves: Indices<S>,
+    left: impl Left<S>,
     closest: &mut Closest<S>,
 ) {
+    if O::IS_FLAT && left.is_left_by_all(index) {
+        return;
+    }
     if let Some(mut intersection) = shape.intersections(simd, bounds, rays) {
         if O::IS_FLAT {
-            intersection.lanes &= !leaves.simd_eq(index);
+            intersection.lanes = left.others(intersection.lanes, index);
         }
         closest.offer(simd, &intersection, index);
     }
 }
 
-/// Adds the lanes in which an object casts a shadow before `t_max`, of rays that may leave any objects.
+/// Adds the lanes in which an object casts a shadow before `t_max`.
 #[inline(always)]
-fn occlude_by_one<S: Simd, O: LaneShape>(
+fn occlude<S: Simd, O: LaneShape>(
     simd: S,
     (shape, bounds, index): (&O, Bounds, u32),
     rays: &Rays<S>,
-    leaves: Indices<S>,
+    left: impl Left<S>,
     t_max: Numbers<S>,
     occluded: &mut Mask<S>,
 ) {
+    if O::IS_FLAT && left.is_left_by_all(index) {
+        return;
+    }
     if let Some(mut lanes) = shape.occluded(simd, bounds, rays, t_max) {
         if O::IS_FLAT {
-            lanes &= !leaves.simd_eq(index);
+            lanes = left.others(lanes, index);
         }
         *occluded |= lanes;
     }
 }
 
-/// The points where rays of a batch hit an object.
-#[inline(always)]
-pub(super) fn point<S: Simd>(
-    simd: S,
-    object: Object<'_>,
-    rays: &Rays<S>,
-    batch: &Batch,
-    lanes: &Lanes,
-) -> Point<S> {
-    macro_rules! point {
-        ([$($shape:ident $list:ident),*]) => {
-            match object {
-                $(Object::$shape(shape) => shape.points(simd, rays, batch, lanes),)*
-                _ => unreachable!("scenes of other shapes are drawn by the core"),
-            }
-        };
+impl LaneObject<'_> {
+    /// The points where rays of a batch hit it.
+    #[inline(always)]
+    pub(super) fn points<S: Simd>(
+        &self,
+        simd: S,
+        rays: &Rays<S>,
+        batch: &Batch,
+        lanes: &Lanes,
+    ) -> Point<S> {
+        with_object!(self, shape => shape.points(simd, rays, batch, lanes))
     }
-    for_each_shape!(point)
 }
 
-/// An object in a leaf of a hierarchy.
-#[derive(Clone, Copy, Debug)]
+/// An object in a leaf of a hierarchy: it has bounds.
+#[derive(Clone, Debug)]
 pub(super) struct LeafObject<'a> {
     /// At hand, so that most tests end without a look at the object.
     pub(super) bounds: Bounds,
-    object: Object<'a>,
+    object: LaneObject<'a>,
     /// Its index among all objects.
     pub(super) index: u32,
     pub(super) casts_shadow: bool,
 }
 
 impl<'a> LeafObject<'a> {
-    pub(super) fn new(object: Object<'a>, index: u32, casts_shadow: bool) -> Self {
-        macro_rules! bounds {
-            ([$($shape:ident $list:ident),*]) => {
-                match object {
-                    $(Object::$shape(shape) => shape.bounds(),)*
-                    _ => Bounds::default(),
-                }
-            };
-        }
+    pub(super) fn new(object: LaneObject<'a>, index: u32, casts_shadow: bool) -> Self {
         Self {
-            bounds: for_each_shape!(bounds),
+            bounds: with_object!(&object, shape => shape.bounds()),
             object,
             index,
             casts_shadow,
         }
     }
 
-    /// Offers it to rays that may leave any objects.
+    /// Offers it to rays.
     #[inline(always)]
     pub(super) fn hit<S: Simd>(
         &self,
         simd: S,
         rays: &Rays<S>,
-        leaves: Indices<S>,
+        left: impl Left<S>,
         closest: &mut Closest<S>,
     ) {
-        macro_rules! offer {
-            ([$($shape:ident $list:ident),*]) => {
-                match self.object {
-                    $(
-                        Object::$shape(shape) if $shape::HAS_BOUNDS => {
-                            offer_one(simd, (shape, self.bounds, self.index), rays, leaves, closest)
-                        }
-                    )*
-                    _ => {}
-                }
-            };
-        }
-        for_each_shape!(offer);
+        with_object!(&self.object, shape => if has_bounds(shape) {
+            offer(simd, (shape, self.bounds, self.index), rays, left, closest);
+        });
     }
 
     /// Adds the lanes in which it casts a shadow before `t_max`.
@@ -375,25 +418,22 @@ impl<'a> LeafObject<'a> {
         &self,
         simd: S,
         rays: &Rays<S>,
-        leaves: Indices<S>,
+        left: impl Left<S>,
         t_max: Numbers<S>,
         occluded: &mut Mask<S>,
     ) {
-        macro_rules! occlude {
-            ([$($shape:ident $list:ident),*]) => {
-                match self.object {
-                    $(
-                        Object::$shape(shape) if $shape::HAS_BOUNDS => {
-                            let object = (shape, self.bounds, self.index);
-                            occlude_by_one(simd, object, rays, leaves, t_max, occluded)
-                        }
-                    )*
-                    _ => {}
-                }
-            };
+        if !self.casts_shadow {
+            return;
         }
-        if self.casts_shadow {
-            for_each_shape!(occlude);
-        }
+        with_object!(&self.object, shape => if has_bounds(shape) {
+            let object = (shape, self.bounds, self.index);
+            occlude(simd, object, rays, left, t_max, occluded);
+        });
     }
+}
+
+/// Leaves hold nothing else: there is no code for it.
+#[inline(always)]
+fn has_bounds<O: LaneShape>(_: &O) -> bool {
+    O::HAS_BOUNDS
 }

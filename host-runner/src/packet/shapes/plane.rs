@@ -2,6 +2,7 @@
 
 use fearless_simd::prelude::*;
 use scanray::formula::plane::{offset, project, rise};
+use scanray::shape::Object;
 use scanray::shape::Plane;
 
 use super::{Bounds, Intersection, LaneShape, Point};
@@ -12,6 +13,15 @@ impl LaneShape for Plane {
     const HAS_BOUNDS: bool = false;
     const IS_ITS_BOUNDS: bool = false;
     const IS_FLAT: bool = true;
+
+    type Held<'a> = &'a Self;
+
+    fn of(object: Object<'_>) -> Option<&Self> {
+        match object {
+            Object::Plane(plane) => Some(plane),
+            _ => None,
+        }
+    }
 
     #[inline(always)]
     fn bounds(&self) -> Bounds {

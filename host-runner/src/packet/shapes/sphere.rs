@@ -2,6 +2,7 @@
 
 use fearless_simd::prelude::*;
 use scanray::formula::sphere::{chord, crossings, project};
+use scanray::shape::Object;
 use scanray::shape::Sphere;
 
 use super::{Bounds, Intersection, LaneShape, Point};
@@ -12,6 +13,15 @@ impl LaneShape for Sphere {
     const HAS_BOUNDS: bool = true;
     const IS_ITS_BOUNDS: bool = true;
     const IS_FLAT: bool = false;
+
+    type Held<'a> = &'a Self;
+
+    fn of(object: Object<'_>) -> Option<&Self> {
+        match object {
+            Object::Sphere(sphere) => Some(sphere),
+            _ => None,
+        }
+    }
 
     #[inline(always)]
     fn bounds(&self) -> Bounds {

@@ -1,10 +1,10 @@
 //! Eight rays and a triangle.
 
 use fearless_simd::prelude::*;
-use scanray::Vec3;
 use scanray::formula::sphere::closest_approach;
 use scanray::formula::triangle::{Shear, edge, interpolate, point, product_error, reach};
 use scanray::shape::Triangle;
+use scanray::{Vec3, shape::Object};
 
 use super::{Bounds, Intersection, LaneShape, Point};
 use crate::packet::batch::{Batch, Lanes};
@@ -14,6 +14,15 @@ impl LaneShape for Triangle {
     const HAS_BOUNDS: bool = true;
     const IS_ITS_BOUNDS: bool = false;
     const IS_FLAT: bool = true;
+
+    type Held<'a> = &'a Self;
+
+    fn of(object: Object<'_>) -> Option<&Self> {
+        match object {
+            Object::Triangle(triangle) => Some(triangle),
+            _ => None,
+        }
+    }
 
     #[inline(always)]
     fn bounds(&self) -> Bounds {
