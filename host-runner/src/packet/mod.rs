@@ -133,12 +133,9 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
         if !self.is_complete || is_bvh_missing {
             return self.row_by_core(places, colors);
         }
+        // Not on SSE 4.2, too: each level is compiled for itself, and takes a fifth of the time that building the program takes.
         #[cfg(target_arch = "x86_64")]
         if let Some(simd) = self.level.as_avx2() {
-            return self.row_on(simd, places, colors);
-        }
-        #[cfg(target_arch = "x86_64")]
-        if let Some(simd) = self.level.as_sse4_2() {
             return self.row_on(simd, places, colors);
         }
         #[cfg(target_arch = "aarch64")]

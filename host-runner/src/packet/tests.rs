@@ -26,7 +26,6 @@ fn levels() -> Vec<Level> {
     let best = Level::new();
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     let others = [
-        best.as_sse4_2().map(Level::Sse4_2),
         #[cfg(not(target_feature = "sse4.2"))]
         Some(Level::Fallback(fearless_simd::Fallback::new())),
     ];
