@@ -1,6 +1,6 @@
-//! Cases 1 to 28: rays and shapes.
+//! Cases 1 to 28 and 70: rays and shapes.
 
-use scanray::shape::{ObjectInfo, Plane, Sphere, Triangle};
+use scanray::shape::{Disc, ObjectInfo, Plane, Sphere, Triangle};
 use scanray::{MaterialDescription, Ray, Scalar, ScenePools, Tracer, Vec3, shape::Object};
 
 use super::cases;
@@ -40,6 +40,7 @@ cases! { Geometry:
     26 sliver_triangle: "at distance 3, aspect 1e-3: 0 misclassified outside a band of 1e-3 of its width; 1e-5: at most 0.3 %";
     27 mesh_scaled_by_powers_of_two: "the same hits";
     28 coincident_objects: "of different shapes the first kind is seen (sphere, plane, triangle, disc), within a kind the first in the text, whatever the order";
+    70 rim_of_a_disc: "rays at 0.9 to 1.1 radii, at cosines down to 1e-2: 0 misclassified outside a band of 1e-3 of the radius";
 }
 
 /// Rays of a statistical case.
@@ -896,6 +897,43 @@ fn mesh_scaled_by_powers_of_two<T: Number>(record: &mut Record) {
     }
     record.holds("rays hit", hits >= rays);
     record.count("rays with another hit, t or place", different, rays);
+}
+
+fn rim_of_a_disc<T: Number>(record: &mut Record) {
+    let random = record.random(170);
+    let (mut wrong, mut rays) = (0, 0);
+    for _ in 0..RAYS {
+        let scale = random.log_between(1e-3, 1e3);
+        let center = random.direction::<f64>() * (scale * random.between(0.0, 3.0));
+        let disc = Disc::new(
+            rounded::<T>(center),
+            random.direction(),
+            T::from_f64(scale),
+            SURFACE,
+        )
+        .expect("a disc");
+        let radius = disc.radius().to_f64();
+        let n = widened(disc.normal());
+        let outward = n.cross(random.direction()).normalize();
+        let aimed = widened(disc.center()) + outward * (radius * random.between(0.9, 1.1));
+        let cosine = random.log_between(1e-2, 0.99);
+        let along = n.cross(random.direction()).normalize();
+        let direction = along * (1.0 - cosine * cosine).sqrt() - n * cosine;
+        let origin = aimed - direction * (radius * random.between(1.0, 10.0));
+        let ray = Ray::new(rounded(origin), rounded::<T>(direction).normalize());
+        let crossing = reference::plane_crossing(disc.normal(), disc.height(), &ray);
+        let Some(t) = crossing else {
+            continue;
+        };
+        let point = WideVec::of(ray.origin).plus(WideVec::of(ray.direction).times(t));
+        let beside = narrow(point.minus(WideVec::of(disc.center())).length()) / radius;
+        if (beside - 1.0).abs() > 1e-3 {
+            rays += 1;
+            let hit = disc.intersect(&ray, T::MAX).is_some();
+            wrong += u64::from(hit != (beside < 1.0));
+        }
+    }
+    record.count("rays misclassified", wrong, rays);
 }
 
 /// Objects that all pass through (0, 0, 4).

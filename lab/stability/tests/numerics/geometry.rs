@@ -29,4 +29,5 @@ super::cases! {
     case_26_sliver_triangle,
     case_27_mesh_scaled_by_powers_of_two,
     case_28_coincident_objects,
+    case_70_rim_of_a_disc,
 }
