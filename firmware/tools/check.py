@@ -39,8 +39,6 @@ LIMITS = {("default", "flash"): 7936, ("default", "stack"): 680, ("default", "ra
 STAGES = ("SHADOWS", "SPECULAR", "REFLECTION", "REFRACTION", "BENDING", "PLANES", "TRIANGLES")
 # Scenes with a tree -> triangles, as in `scanray generate icosphere --count`.
 LARGE_SCENES = {"boulder": 980, "gem": 80}
-# Scenes that are drawn with settings that the host's model is asked about.
-PREDICTED = ("default", "mirror-room")
 
 
 class Report:
@@ -437,17 +435,17 @@ def model_checks(report, boards, program, builder, large):
             measured, core = board.measured.get((scene, "size")), BOARDS[board.name][1]
             if measured and core in predicted:
                 report.check(f"{core} {scene}, predicted",
-                             lambda: instruction_model.compare(predicted[core], measured.instructions))
-    size, recommended = instruction_model.SIZE, instruction_model.RECOMMENDED
-    paths = [os.path.join(FIRMWARE, scenes()[scene]) for scene in PREDICTED]
+                             lambda: instruction_model.compare(predicted[core], measured.instructions, core))
+    size, recommended, predicted_scenes = instruction_model.SIZE, instruction_model.RECOMMENDED, instruction_model.PREDICTED
+    paths = [os.path.join(FIRMWARE, scenes()[scene]) for scene in predicted_scenes]
     for scene, index, core, counted in settings.all_counts(builder, size, instruction_model.CORES, paths, recommended):
         def check():
             if isinstance(counted, Exception):
                 raise Failed(str(counted))
             predicted = instruction_model.figures(program, paths[scene], size, recommended[index])[predictions]
-            return instruction_model.compare(predicted[core], counted)
+            return instruction_model.compare(predicted[core], counted, core)
 
-        report.check(f"{core} {PREDICTED[scene]}, recommended setting {index + 1}, predicted", check)
+        report.check(f"{core} {predicted_scenes[scene]}, recommended setting {index + 1}, predicted", check)
 
 
 def oled_checks(builder, report, reference, bless):

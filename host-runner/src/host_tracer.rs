@@ -10,7 +10,7 @@ use scanray::{
     tracer::{Intersection, LightAtHit, Observer, RayCount, RayKind, Scanline, TestKind},
 };
 
-use crate::cost::{Circumstances, Work};
+use crate::cost::Work;
 use crate::failure::Failure;
 use crate::knobs::Knobs;
 use crate::parallel_drawing::Workers;
@@ -199,27 +199,14 @@ impl<'a, T: Scalar> HostTracer<'a, T> {
     pub(crate) fn count_work(&self, rows: Range<u16>, workers: &Workers) -> Work {
         let width = self.resolution().width;
         let progress = Progress::new("Counting rays".to_owned(), rows.len() as u64);
-        let block = self.knobs.detail.block();
-        let traced = rows.clone().filter(|y| y % block == 0).count();
-        let samples = self.knobs.samples.pattern().len();
-        let is_adaptive = self.knobs.edges.is_some();
-        // `Adaptive` has three more, for the centres.
-        let each = samples + if is_adaptive { 3 } else { 0 };
-        let circumstances = Circumstances {
-            has_cutoff: self.has_cutoff(),
-            block: block.into(),
-            samples: samples as u64,
-            is_adaptive,
-            ..Circumstances::of(self.tracer.scene(), (traced * each) as u64)
-        };
-        let work = Work::count(width, rows, workers, |y, counter| {
+        let work = Work::count(width, rows, workers, |y, work| {
             let scanline = self.scanline(y);
             for x in 0..width {
-                self.observe(&scanline, x, &mut Watch(counter));
+                self.observe(&scanline, x, &mut Watch(work));
             }
             progress.advance(1);
         });
-        work.under(&circumstances)
+        work.compared(self.knobs.edges.is_some())
     }
 }
 

@@ -39,10 +39,12 @@ pub(crate) struct RenderReport {
     pub(crate) counted_by: &'static str,
     pub(crate) rays: Rays,
     pub(crate) tests: Tests,
-    /// What rays, tests and hits are made of: the counts that the instruction model takes.
-    pub(crate) work: Counts,
+    /// The counts that the instruction model takes.
+    pub(crate) work: Terms,
     /// What the instruction model predicts for devices; they draw in `f32`.
-    pub(crate) predicted_instructions_per_pixel: Option<Instructions>,
+    pub(crate) predicted_instructions_per_pixel: Option<ByCore<f64>>,
+    /// How far off the prediction may be.
+    pub(crate) predicted_within_percent: Option<ByCore<u32>>,
     pub(crate) pools: Pools,
 }
 
@@ -71,18 +73,19 @@ pub(crate) struct Tests {
     sphere: u64,
     plane: u64,
     triangle: u64,
+    other: u64,
     #[serde(rename = "box")]
     boxes: u64,
     total: u64,
 }
 
-/// Counts by name.
+/// Terms of the instruction model by name.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Counts(Work);
+pub(crate) struct Terms(Work);
 
-/// Instructions by core.
+/// A figure for each core, by its name.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Instructions([f64; 3]);
+pub(crate) struct ByCore<F>([F; Core::ALL.len()]);
 
 /// How full the pools are.
 #[derive(Clone, Copy, Debug)]
@@ -91,23 +94,28 @@ pub(crate) struct Pools(pub(crate) [PoolUse; 5]);
 impl RenderReport {
     /// Enters what the picture took.
     pub(crate) fn set_work(&mut self, work: &Work) {
+        let count = &work.count;
         self.rays = Rays {
-            primary: work.primary_rays,
-            reflected: work.reflected_rays,
-            refracted: work.refracted_rays,
-            shadow: work.shadow_rays,
-            total: work.rays(),
+            primary: count.primary_rays,
+            reflected: count.reflected_rays,
+            refracted: count.refracted_rays,
+            shadow: count.shadow_rays,
+            total: count.rays(),
         };
         self.tests = Tests {
-            sphere: work.sphere_tests,
-            plane: work.plane_tests,
-            triangle: work.triangle_tests,
-            boxes: work.box_tests,
-            total: work.tests(),
+            sphere: count.sphere_tests,
+            plane: count.plane_tests,
+            triangle: count.triangle_tests,
+            other: count.other_tests,
+            boxes: count.box_tests,
+            total: count.tests(),
         };
-        self.work = Counts(*work);
-        self.predicted_instructions_per_pixel =
-            (self.scalar == f32::NAME).then(|| Instructions(MODEL.instructions_per_pixel(work)));
+        self.work = Terms(*work);
+        if self.scalar == f32::NAME {
+            self.predicted_instructions_per_pixel =
+                Some(ByCore(MODEL.instructions_per_pixel(work)));
+            self.predicted_within_percent = Some(ByCore(MODEL.within_percent()));
+        }
     }
 
     /// Writes a line of JSON.
@@ -128,15 +136,15 @@ fn serialize_resolution<S: Serializer>(size: &Resolution, to: S) -> Result<S::Ok
     map.end()
 }
 
-impl Serialize for Counts {
+impl Serialize for Terms {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.collect_map(self.0.counts())
+        to.collect_map(self.0.terms())
     }
 }
 
-impl Serialize for Instructions {
+impl<F: Serialize> Serialize for ByCore<F> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.collect_map(Core::ALL.map(Core::name).into_iter().zip(self.0))
+        to.collect_map(Core::ALL.map(Core::name).into_iter().zip(&self.0))
     }
 }
 

@@ -160,12 +160,16 @@ fn show<T: HostScalar + Drawing>(
     let times = args.row_times(&tracer, resolution)?;
     let total: Duration = times.iter().sum();
     say(format_args!(
-        "{} on {}x{} takes {:.3} s, {:.3} ms a row on average.",
+        "{} on {}x{} takes {:.3} s, {:.3} ms a row on average{}.",
         source.name(),
         resolution.width,
         resolution.height,
         total.as_secs_f64(),
-        1e3 * total.as_secs_f64() / f64::from(resolution.height)
+        1e3 * total.as_secs_f64() / f64::from(resolution.height),
+        args.target.map_or(String::new(), |core| {
+            let within = MODEL.within_percent()[core as usize];
+            format!("; its instructions are predicted within {within} %")
+        })
     ));
     let pixels = T::pixels(&tracer);
     let title = format!("scanray: {}", source.name());

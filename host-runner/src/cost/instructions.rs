@@ -1,9 +1,9 @@
 //! How many instructions a picture takes on a microcontroller: a model.
 //!
-//! Each thing that the tracer does ([`Work`]) takes as many as `instructions.txt` says. The file is fitted
-//! to pictures drawn under emulation, by `firmware/tools/instruction_model.py`, and holds for programs
-//! that are compiled as those are: a baked scene with the stages it needs, the size profile. What the display's colours take is
-//! not in it: dither adds 1 % or so, fewer levels save less.
+//! Each thing that the tracer does ([`Work::terms`]) takes as many as `instructions.txt` says, which also says how far the sum was off
+//! at most. The file is fitted to pictures drawn under emulation, by `firmware/tools/instruction_model.py`, and holds for programs
+//! that are compiled as those are: a baked scene with the stages it needs, the size profile. What highlights, the look whether rays show
+//! and the display's colours take is not in it by itself.
 
 use std::fmt;
 use std::sync::LazyLock;
@@ -46,33 +46,59 @@ impl fmt::Display for Core {
 }
 
 /// What each thing takes: a name and a number for each of [`Core::ALL`].
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Model {
     terms: Rows,
+    /// Largest errors in percent, of what it was fitted to and of what was held out.
+    errors: Rows,
 }
 
 /// The model that is checked in.
-pub static MODEL: LazyLock<Model> = LazyLock::new(|| {
-    Model::parse(include_str!("instructions.txt")).unwrap_or_else(|| Model { terms: Vec::new() })
-});
+pub static MODEL: LazyLock<Model> =
+    LazyLock::new(|| Model::parse(include_str!("instructions.txt")).unwrap_or_default());
 
 impl Model {
     fn parse(text: &str) -> Option<Self> {
-        table::parse(text).map(|terms| Self { terms })
+        let mut terms = table::parse(text)?;
+        terms.retain(|(name, _)| !name.starts_with("median_error"));
+        let (errors, terms) = terms
+            .into_iter()
+            .partition(|(name, _)| name.starts_with("largest_error"));
+        Some(Self { terms, errors })
     }
 
     /// Instructions a pixel on each core.
     pub fn instructions_per_pixel(&self, work: &Work) -> [f64; Core::ALL.len()] {
-        Core::ALL.map(|core| self.sum(work, core))
+        let counts = work.terms();
+        let sum = |core: Core| -> f64 {
+            let of = |name: &str| {
+                counts
+                    .iter()
+                    .find(|(n, _)| *n == name)
+                    .map_or(0, |(_, c)| *c)
+            };
+            let instructions =
+                |(name, each): &(String, [f64; 3])| each[core as usize] * of(name) as f64;
+            self.terms.iter().map(instructions).sum()
+        };
+        Core::ALL.map(|core| sum(core) / work.pixels.max(1) as f64)
     }
 
-    fn sum(&self, work: &Work, core: Core) -> f64 {
-        let sum: f64 = self
-            .terms
-            .iter()
-            .map(|(name, each)| each[core as usize] * work.count_of(name).unwrap_or(0) as f64)
-            .sum();
-        sum / work.pixels.max(1) as f64
+    /// By how many percent a prediction was off at most on each core, when the table was written.
+    pub fn within_percent(&self) -> [u32; Core::ALL.len()] {
+        let largest = |core: Core| {
+            self.errors
+                .iter()
+                .map(|(_, e)| e[core as usize])
+                .fold(0.0, f64::max)
+        };
+        Core::ALL.map(|core| largest(core).ceil() as u32)
+    }
+
+    /// The same in words.
+    pub fn within(&self) -> String {
+        let [m4f, m3, m0] = self.within_percent();
+        format!("within {m4f} % on the M4F, {m3} % on the M3 and {m0} % on the M0")
     }
 }
 
@@ -81,27 +107,29 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_table_knows_what_the_counter_counts() {
+    fn the_table_has_the_terms_that_are_counted() {
         let model = Model::parse(include_str!("instructions.txt")).unwrap();
-        assert!(!model.terms.is_empty());
-        for (name, each) in &model.terms {
-            assert!(Work::default().count_of(name).is_some(), "{name}");
-            assert!(each.iter().all(|number| *number >= 0.0), "{name}");
-        }
+        let names: Vec<_> = model.terms.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, Work::default().terms().map(|(name, _)| name));
+        assert!(names.len() <= 12);
+        let numbers = model.terms.iter().flat_map(|(_, each)| each);
+        assert!(numbers.into_iter().all(|number| *number >= 0.0));
+        assert_eq!(model.errors.len(), 2);
+        assert!(model.within_percent().iter().all(|percent| *percent > 0));
     }
 
     #[test]
     fn instructions_add_up() {
-        let table = "# comment\nterm M3 M4F M0\nprimary_rays 10 1 100\nlit 20 2 200\n";
+        let table = "# comment\nterm M3 M4F M0\nlargest_error_fitted 7 5 9\nlargest_error_held_out 6 8 9\n\
+                     median_error_fitted 50 50 50\npixels 10 1 100\nhits 20 2 200\n";
         let model = Model::parse(table).unwrap();
         let work = Work {
             pixels: 2,
-            primary_rays: 4,
-            lit: 3,
+            hits: 3,
             ..Default::default()
         };
-        let predicted = model.instructions_per_pixel(&work);
-        assert_eq!(predicted, [5.0, 50.0, 500.0]);
-        assert_eq!(Model::parse("term M4F M3 M0\nlit 1 x 2\n"), None);
+        assert_eq!(model.instructions_per_pixel(&work), [4.0, 40.0, 400.0]);
+        assert_eq!(model.within_percent(), [8, 7, 9]);
+        assert_eq!(Model::parse("term M4F M3 M0\nhits 1 x 2\n"), None);
     }
 }

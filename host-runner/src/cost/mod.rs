@@ -6,4 +6,4 @@ mod work;
 
 pub use instructions::{Core, MODEL, Model};
 pub use table::{Rows, parse as parse_table};
-pub use work::{Circumstances, Counter, Work};
+pub use work::Work;

@@ -175,7 +175,10 @@ fn work_is_counted_as_the_core_does_it() {
     let scene = pools.as_scene();
     let host = HostTracer::new(scene, SIZE, 5).unwrap();
     let core = Tracer::new(scene).with_resolution(SIZE);
-    let count = |knobs| host.with_knobs(knobs).count_work(0..SIZE.height, &workers);
+    let count = |knobs| {
+        let host = host.with_knobs(knobs);
+        host.count_work(0..SIZE.height, &workers).count
+    };
 
     // Each centre once, and the samples of edges.
     let mut centers = vec![CenterSample::EMPTY; 2 * usize::from(SIZE.width)];

@@ -219,9 +219,14 @@ fn json_tells_what_the_picture_took() {
     let rays = ["primary", "reflected", "refracted", "shadow"];
     assert_eq!(number("/rays/total"), sum("rays", &rays));
     assert!(rays.iter().all(|kind| number(&format!("/rays/{kind}")) > 0));
-    let tests = ["sphere", "plane", "triangle", "box"];
+    let tests = ["sphere", "plane", "triangle", "other", "box"];
     assert_eq!(number("/tests/total"), sum("tests", &tests));
     assert!(number("/tests/sphere") > 0);
+    for core in ["M4F", "M3", "M0"] {
+        let predicted = &report["predicted_instructions_per_pixel"][core];
+        assert!(predicted.as_f64().unwrap() > 100.0, "{core}");
+        assert!((1..100).contains(&number(&format!("/predicted_within_percent/{core}"))));
+    }
     for (pool, used) in [
         ("spheres", 5),
         ("planes", 1),

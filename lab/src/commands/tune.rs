@@ -9,7 +9,7 @@ use clap::Args;
 use scanray::Resolution;
 use serde::Serialize;
 
-use crate::cost::Core;
+use crate::cost::{Core, MODEL};
 use crate::report::{BothScalars, Budget, Choice, Sampling, Settings, Sweep, Tuned, tune};
 use scanray_host::console::print;
 use scanray_host::failure::Failure;
@@ -26,7 +26,7 @@ Examples:
   scanray-lab tune scene.txt --target m3 --clock 72MHz --budget 5fps --size 40x30 --json
 
 Tries maximum depths, cut-offs and ways of sampling, and names the setting with the least error whose time is within the \
-budget at the upper end of its range. Instructions are predicted by a model within about 15 %; milliseconds are an \
+budget at the upper end of its range. Instructions are predicted by a model, and how far off it may be is told; milliseconds are an \
 estimate from the cores' manuals. Errors are those of what the display shows against the scene in f64 with 256 samples a pixel: \
 the root of the mean square in levels of 255; with --dither FLIP, 0 to 1, because the mean square punishes the pattern that the \
 eye averages. Displays of greys are compared with greys.
@@ -179,6 +179,7 @@ pub(crate) fn run(args: &TuneArgs) -> Result<ExitCode, Failure> {
         budget_ms: 1e3 * budget.seconds,
         error_measure: if args.dither { "flip" } else { "rmse" },
         wait_states: args.wait_states,
+        instructions_within_percent: MODEL.within_percent()[args.target as usize],
         tuned,
     };
     print(|out| {
@@ -205,6 +206,8 @@ struct Answer {
     budget_ms: f64,
     error_measure: &'static str,
     wait_states: u32,
+    /// How far off the model that predicts the instructions may be.
+    instructions_within_percent: u32,
     #[serde(flatten)]
     tuned: Tuned,
     /// Lines of Rust that draw with the best.
@@ -261,8 +264,10 @@ impl Answer {
         }
         writeln!(
             out,
-            "{tried} settings were tried. Instructions are predicted by a model, milliseconds are an estimate; the upper end counts.\n\
+            "{tried} settings were tried. Instructions are predicted by a model, within {} %; milliseconds are an estimate of what \
+             these take, the upper end counts.\n\
              Error: {}, against f64 with 256 samples a pixel.",
+            self.instructions_within_percent,
             if args.dither {
                 "FLIP, 0 to 1"
             } else {

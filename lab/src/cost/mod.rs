@@ -5,4 +5,4 @@ mod emulation;
 
 pub(crate) use cycles::{Span, cycles};
 pub(crate) use emulation::{Counted, Emulator, Job};
-pub(crate) use scanray_host::cost::{Circumstances, Core, Counter, MODEL, Work};
+pub(crate) use scanray_host::cost::{Core, MODEL, Work};

@@ -9,7 +9,7 @@ use super::references::{DEPTH, LeftOut, SAMPLES};
 use super::settings::Settings;
 use super::sweep::judge;
 use super::timing::HostTime;
-use crate::cost::{Core, Work};
+use crate::cost::{Core, MODEL, Work};
 use scanray_host::image::Image;
 
 /// A report.
@@ -21,6 +21,8 @@ pub(crate) struct Document {
     /// How far the references are from closed forms.
     pub(crate) closed_forms: Vec<Distance>,
     pub(crate) emulation: Emulation,
+    /// How far off predicted instructions may be, by [`Core::ALL`].
+    pub(crate) instructions_within_percent: [u32; 3],
     pub(crate) scenes: Vec<SceneReport>,
 }
 
@@ -62,6 +64,7 @@ impl Document {
         Self {
             closed_forms,
             emulation,
+            instructions_within_percent: MODEL.within_percent(),
             version: env!("CARGO_PKG_VERSION"),
             reference_depth: DEPTH,
             reference_samples: SAMPLES,
@@ -258,8 +261,8 @@ impl PerPixel {
     pub(crate) fn of(work: &Work) -> Self {
         let pixels = work.pixels.max(1) as f64;
         Self {
-            rays: work.rays() as f64 / pixels,
-            tests: work.tests() as f64 / pixels,
+            rays: work.count.rays() as f64 / pixels,
+            tests: work.count.tests() as f64 / pixels,
         }
     }
 }

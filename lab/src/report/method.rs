@@ -3,6 +3,7 @@
 use super::closed_forms::Distance;
 use super::document::{Document, Emulation};
 use super::references::{DEPTH, SAMPLES};
+use crate::cost::MODEL;
 
 /// A heading and what belongs to it.
 pub(crate) type Paragraph = (&'static str, String);
@@ -91,13 +92,16 @@ pub(crate) fn paragraphs(document: &Document) -> Vec<Paragraph> {
 
 /// How instructions come about.
 fn instructions(emulation: &Emulation) -> String {
-    const MODEL: &str = "from a model: what the tracer does, counted by kind, times what each takes, which was fitted to \
-        pictures drawn under emulation and is within 15 % of them (firmware/tools/instruction_model.py)";
+    let model = format!(
+        "from a model: what the tracer does, counted by kind, times what each takes, which was fitted to pictures drawn under \
+         emulation and is {} of them and of others (firmware/tools/instruction_model.py)",
+        MODEL.within()
+    );
     let unit = "Instructions, not cycles, for each pixel on Cortex-M4F, M3 and M0";
     match emulation {
-        Emulation::NotAsked => format!("{unit}, {MODEL}. --emulate counts them instead."),
+        Emulation::NotAsked => format!("{unit}, {model}. --emulate counts them instead."),
         Emulation::Missing(why) => {
-            format!("{unit}, {MODEL}. They were to be counted under emulation, but {why}.")
+            format!("{unit}, {model}. They were to be counted under emulation, but {why}.")
         }
         Emulation::Counted { cores, failures } => {
             let cores = cores
@@ -115,7 +119,7 @@ fn instructions(emulation: &Emulation) -> String {
                  with the stages it needs, compiled for size. A program is compiled for each way of sampling, with a cut-off or \
                  without, for each kind of display and each power routine; depth, cut-off, threshold and block size are unknown to \
                  the compiler. Of pictures with more than 100,000 samples, as many to each pixel, so many rows were drawn as have 100,000, \
-                 which stand for all (firmware/tools/settings.py). On other cores they are {MODEL}.{failures}"
+                 which stand for all (firmware/tools/settings.py). On other cores they are {model}.{failures}"
             )
         }
     }

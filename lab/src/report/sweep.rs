@@ -196,9 +196,7 @@ impl<'a> Sweep<'a> {
     /// [`Failure`].
     pub(crate) fn estimate(&self, settings: &Settings) -> Result<Estimate, Failure> {
         let tracer = self.tracer(self.scene.single(settings.power), settings)?;
-        let work = tracer
-            .work(settings.sampling, settings.preview, self.workers)
-            .shown(settings.dither);
+        let work = tracer.work(settings.sampling, settings.preview, self.workers);
         let colors = tracer.colors(settings.sampling, settings.preview, self.workers);
         let r2 = self.references.r2_in(settings.color);
         let shown = self.shown(&colors, settings);
@@ -258,9 +256,7 @@ impl<'a> Sweep<'a> {
         };
         let (colors, per_pixel, work, host_time) = match others {
             None => {
-                let work = tracer
-                    .work(settings.sampling, settings.preview, self.workers)
-                    .shown(settings.dither);
+                let work = tracer.work(settings.sampling, settings.preview, self.workers);
                 (
                     tracer.colors(settings.sampling, settings.preview, self.workers),
                     PerPixel::of(&work),

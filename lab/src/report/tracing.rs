@@ -11,7 +11,7 @@ use scanray::{
 use super::references::DEPTH;
 use super::settings::{Sampling, Settings};
 use super::timing::HostTime;
-use crate::cost::{Circumstances, Counter, Work};
+use crate::cost::Work;
 use scanray_host::failure::Failure;
 use scanray_host::knobs::Detail;
 use scanray_host::parallel_drawing::Workers;
@@ -126,41 +126,27 @@ impl<'a, T: Scalar> ReportTracer<'a, T> {
     pub(crate) fn work(&self, sampling: Sampling, preview: Detail, workers: &Workers) -> Work {
         let Resolution { width, height } = self.resolution();
         let block = preview.block();
-        let (samples, is_adaptive) = match sampling {
-            Sampling::Fixed(samples) => (u64::from(samples), false),
-            Sampling::Adaptive(_) => (Settings::ADAPTIVE_SAMPLES as u64, true),
-        };
-        // `Adaptive` has three more scanlines a row, for the centres.
-        let each = samples + if is_adaptive { 3 } else { 0 };
-        let circumstances = Circumstances {
-            has_cutoff: self.0.cutoff() > T::ZERO,
-            block: block.into(),
-            samples,
-            is_adaptive,
-            ..Circumstances::of(self.scene(), each * u64::from(height.div_ceil(block)))
-        };
-        let work = with_source!(self, sampling, |source|
+        with_source!(self, sampling, |source|
         // Its rows hand centres on, and are counted one after the other.
         adaptive: {
-            let mut counter = Counter::new();
+            let mut work = Work::of_pixels(u64::from(width) * u64::from(height));
             for y in 0..height {
                 let scanline = source.scanline(y);
                 for x in 0..width {
-                    source.pixel_observed(&scanline, x, &mut counter);
+                    source.pixel_observed(&scanline, x, &mut work);
                 }
             }
-            counter.finish(u64::from(width) * u64::from(height))
+            work.compared(true)
         },
-        fixed: Work::count(width, 0..height, workers, |y, counter| {
+        fixed: Work::count(width, 0..height, workers, |y, work| {
             if y % block != 0 {
                 return;
             }
             let scanlines = source.scanline(y);
             for x in (0..width).step_by(block.into()) {
-                source.pixel_observed(&scanlines, x, counter);
+                source.pixel_observed(&scanlines, x, work);
             }
-        }));
-        work.under(&circumstances)
+        }))
     }
 
     /// How long the picture takes.

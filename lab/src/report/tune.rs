@@ -115,16 +115,11 @@ fn estimates(
     for settings in candidates(display) {
         progress.advance(1);
         let estimate = sweep.estimate(&settings)?;
-        // A larger depth or a finer cut-off that casts no ray more draws the same picture. The work of looking whether rays
-        // show is not the picture's.
-        let work = Work {
-            cutoff_hits: 0,
-            ..estimate.work
-        };
-        if known.contains(&work) {
+        // A larger depth or a finer cut-off that casts no ray more draws the same picture.
+        if known.contains(&estimate.work) {
             continue;
         }
-        known.push(work);
+        known.push(estimate.work);
         let single = (settings, estimate);
         let is_beyond = is_too_much(&single);
         tried.push(single);

@@ -25,6 +25,7 @@ fn more_time_is_never_worse_and_is_kept_to() {
         let most = best["milliseconds"]["most"].as_f64().unwrap();
         let least = best["milliseconds"]["least"].as_f64().unwrap();
         assert!(least < most && most <= limit, "{json}");
+        assert!((1..100).contains(&json["instructions_within_percent"].as_u64().unwrap()));
         let error = best["error"].as_f64().unwrap();
         assert!(error <= last);
         last = error;

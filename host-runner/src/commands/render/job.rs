@@ -252,6 +252,7 @@ impl Job<'_> {
             tests: Default::default(),
             work: Default::default(),
             predicted_instructions_per_pixel: None,
+            predicted_within_percent: None,
             pools: Pools(studio.pools.usage()),
         }
     }
@@ -371,8 +372,7 @@ impl<T: HostScalar + Drawing> Studio<'_, T> {
             self.draw_in_color::<C>(job, &pixels, report, consume)
         })?;
         if let Some(work) = work {
-            let counted = tracer.count_work(self.rows.clone(), job.workers);
-            *work = *work + counted.shown(job.settings.dither);
+            *work = *work + tracer.count_work(self.rows.clone(), job.workers);
         }
         Ok(bytes)
     }
