@@ -24,7 +24,7 @@ pub struct Work {
     /// hardware for floats tests exactly.
     pub exact_tests: u64,
     /// Tests against triangles whose bounding ball the ray's line crosses.
-    pub crossed_balls: u64,
+    pub crossed_bounds: u64,
     /// Tests against planes whose normal is not along an axis.
     pub slanted_planes: u64,
     /// Rays that hit an object, shadow rays left out.
@@ -80,11 +80,11 @@ impl Work {
             ("hits", self.hits),
             ("object_tests", count.tests() - count.box_tests),
             ("exact_tests", self.exact_tests),
-            ("crossed_balls", self.crossed_balls),
+            ("crossed_bounds", self.crossed_bounds),
             ("slanted_planes", self.slanted_planes),
             ("box_tests", count.box_tests),
             (
-                "rays_through_tree",
+                "rays_through_bvh",
                 u64::from(has_bvh) * (count.primary_rays + secondary_rays),
             ),
         ]
@@ -101,7 +101,7 @@ impl Add for Work {
             compared_pixels: self.compared_pixels + other.compared_pixels,
             count: self.count,
             exact_tests: self.exact_tests + other.exact_tests,
-            crossed_balls: self.crossed_balls + other.crossed_balls,
+            crossed_bounds: self.crossed_bounds + other.crossed_bounds,
             slanted_planes: self.slanted_planes + other.slanted_planes,
             hits: self.hits + other.hits,
         }
@@ -131,7 +131,7 @@ impl<T: Scalar> Observer<T> for Work {
                 let to_center = triangle.bounds_center() - ray.origin;
                 let across = to_center - ray.direction * to_center.dot(ray.direction);
                 let is_crossed = across.dot(across) <= triangle.bounds_radius_squared();
-                self.crossed_balls += u64::from(is_crossed);
+                self.crossed_bounds += u64::from(is_crossed);
             }
             // The model knows no others.
             _ => {}
