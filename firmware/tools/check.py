@@ -37,7 +37,7 @@ LIMITS = {("default", "flash"): 7936, ("default", "stack"): 680, ("default", "ra
           ("stage-1-diffuse-spheres", "flash"): 2304}
 # Stages that the default scene is also measured without.
 STAGES = ("SHADOWS", "SPECULAR", "REFLECTION", "REFRACTION", "BENDING", "PLANES", "TRIANGLES")
-# Scenes with a tree -> triangles, as in `scanray generate icosphere --count`.
+# Scenes with a hierarchy -> triangles, as in `scanray generate icosphere --count`.
 LARGE_SCENES = {"boulder": 980, "gem": 80}
 
 
@@ -136,7 +136,7 @@ class Board:
             check(f"{column} boulder", lambda: self.picture("boulder", self.large["boulder"], "boulder", "size"))
             check(f"{column} boulder without bvh",
                   lambda: self.picture("boulder", self.large["boulder"], "boulder without bvh", "size", "BVH"))
-            check(f"{column} gem, parsed and its tree built on the board", self.parsed_bvh)
+            check(f"{column} gem, parsed and its hierarchy built on the board", self.parsed_bvh)
             check(f"{column} a stage that is left out is named by the compiler", self.missing_stage)
             for profile in BOARDS[self.name][3]:
                 check(f"{column} default for a core with a name ({profile})", lambda: self.named_core(profile))
@@ -204,7 +204,7 @@ class Board:
             self.cycles[row, profile, "generic"] = instructions, _ = profiler.cost(image)
             if abs(instructions - measured.instructions) > 1:
                 raise Failed(f"the profiler counts {instructions:.1f} instructions a pixel, the board {measured.instructions:.1f}")
-        # The tree is for speed alone.
+        # The hierarchy is for speed alone.
         if without in ("NONE", "BVH"):
             self.crcs[scene] = measured.crc
             if measured.crc != self.expected.get(scene):
@@ -418,7 +418,7 @@ def check_all(builder, report, bless):
 
 
 def large_scenes(program, folder):
-    """Scenes with a tree, generated: name -> file."""
+    """Scenes with a hierarchy, generated: name -> file."""
     paths = {}
     for name, triangles in LARGE_SCENES.items():
         paths[name] = instruction_model.generate(program, folder, name, "icosphere", triangles)

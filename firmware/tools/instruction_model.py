@@ -3,10 +3,10 @@
 
     instruction_model.py [--dry-run] [--counted FILE]
 
-Draws the scenes of scenes/, made-up ones and some with a tree on the M4F, M3 and M0, some with more settings, and has `scanray render --json` count
+Draws the scenes of scenes/, made-up ones and some with a hierarchy on the M4F, M3 and M0, some with more settings, and has `scanray render --json` count
 the model's terms for the same pictures. The coefficients are the instructions that each term takes, none below 0, with the least
 sum of squared relative errors. How far the model is off is told of these pictures and of others, which are held out: the scenes of
-../scenes, and more trees. Prints it scene by scene, and writes ../host-runner/src/cost/instructions.txt, errors first,
+../scenes, and more hierarchies. Prints it scene by scene, and writes ../host-runner/src/cost/instructions.txt, errors first,
 unless told not to; the largest error is what the host's programs tell their users and what test.sh allows. `--counted` takes what
 the boards counted from a file if it is there, and else writes it. Takes ten minutes or so on two cores.
 """
@@ -46,7 +46,7 @@ MORE = [setting(cutoff=1 / 64, max_depth=8), *RECOMMENDED, setting(preview="half
 # Scenes that test.sh draws with the recommended settings.
 PREDICTED = ("default", "mirror-room")
 MADE_UP = [f"made up {number}" for number in range(16)]
-# Scenes with a tree -> arguments of `scanray generate`.
+# Scenes with a hierarchy -> arguments of `scanray generate`.
 LARGE = {"gem": ("icosphere", 80), "boulder": ("icosphere", 980), "swarm": ("spheres", 60), "crowd": ("spheres", 300),
          "ball": ("icosphere", 320), "flock": ("spheres", 150)}
 STAGES = [name for name, path in scenes().items() if path.startswith("scenes/")]
