@@ -7,6 +7,7 @@
 mod geometry;
 mod image;
 mod input;
+mod reference;
 mod shading;
 
 use scanray_stability::catalogue::{Case, Effort, Finding, Group, ScalarName};
@@ -105,4 +106,14 @@ fn all_70_cases_are_tested_in_their_groups() {
             .collect();
         assert_eq!(tested, catalogue, "{group:?}");
     }
+}
+
+#[test]
+fn titles_have_numbers_in_them() {
+    let title = |number: usize| Case::all()[number - 1].title();
+    assert_eq!(title(3), "sphere at radius over distance 1e-4");
+    assert_eq!(title(41), "mirrors of 0.9 at depth 16");
+    assert_eq!(title(31), "shell of 1e-3 radii");
+    assert_eq!(title(56), "field of view of 179.9 degrees");
+    assert_eq!(title(69), "single precision on every scene");
 }
