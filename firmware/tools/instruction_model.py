@@ -3,12 +3,13 @@
 
     instruction_model.py [--dry-run] [--counted FILE]
 
-Draws the scenes of scenes/, made-up ones and some with a hierarchy on the M4F, M3 and M0, some with more settings, and has `scanray render --json` count
-the model's terms for the same pictures. The coefficients are the instructions that each term takes, none below 0, with the least
-sum of squared relative errors. How far the model is off is told of these pictures and of others, which are held out: the scenes of
-../scenes, and more hierarchies. Prints it scene by scene, and writes ../host-runner/src/cost/instructions.txt, errors first,
-unless told not to; the largest error is what the host's programs tell their users and what test.sh allows. `--counted` takes what
-the boards counted from a file if it is there, and else writes it. Takes ten minutes or so on two cores.
+Draws the scenes of scenes/, made-up ones and some with a hierarchy on the M4F, M3 and M0, some with more settings, and has
+`scanray render --json` count the model's terms for the same pictures. The coefficients are the instructions that each term takes,
+none below 0, with the least sum of squared relative errors. How far the model is off is told of these pictures and of others, which
+are held out: the scenes of ../scenes, and more hierarchies. Prints it scene by scene, and writes
+../host-runner/src/cost/instructions.txt unless told not to; the largest error in it is what the host's programs tell their users
+and what test.sh allows. `--counted` takes what the boards counted from a file if it is there, and else writes it. Takes ten minutes
+or so on two cores.
 """
 
 import argparse
