@@ -82,7 +82,7 @@ pub(crate) fn write_rays<T: Scalar>(
         } else {
             "nothing: the background"
         };
-        line("hits", &what)?;
+        line("meets", &what)?;
         return line("result", &color_digits(node.result));
     };
     let side = match (hit.front, names.kind(hit.object)) {
@@ -92,7 +92,7 @@ pub(crate) fn write_rays<T: Scalar>(
         (false, _) => "on its back",
     };
     line(
-        "hits",
+        "meets",
         &format_args!(
             "{}, {side}, at t = {}",
             names.object(hit.object),
