@@ -52,7 +52,7 @@ LARGE = {"gem": ("icosphere", 80), "boulder": ("icosphere", 980), "swarm": ("sph
          "ball": ("icosphere", 320), "flock": ("spheres", 150)}
 STAGES = [name for name, path in scenes().items() if path.startswith("scenes/")]
 # Scenes and settings that the model is fitted to, and those that it only has to predict.
-FITTED = [(["sky", *STAGES, *MADE_UP, "gem", "boulder", "swarm", "crowd"], DEPTHS), (["made up 3", "made up 5", "gem"], MORE)]
+FITTED = [(["sky", *STAGES, *MADE_UP, "gem", "boulder", "swarm", "crowd"], DEPTHS), (["sky", "made up 3", "made up 5", "gem"], MORE)]
 HELD_OUT = [([*(name for name in scenes() if name not in STAGES), "ball", "flock"], DEPTHS), (PREDICTED, MORE)]
 
 # Nothing but the gradient of the sky.

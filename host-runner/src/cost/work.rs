@@ -20,10 +20,10 @@ pub struct Work {
     pub compared_pixels: u64,
     /// Rays and tests by kind.
     pub count: WorkCount,
-    /// Tests of spheres, and of triangles by their bounding balls, that no look in integers decides: what a core without
+    /// Tests of spheres, and of triangles by their bounding spheres, that no look in integers decides: what a core without
     /// hardware for floats tests exactly.
     pub exact_tests: u64,
-    /// Tests against triangles whose bounding ball the ray's line crosses.
+    /// Tests against triangles whose bounding sphere the ray's line crosses.
     pub crossed_bounds: u64,
     /// Tests against planes whose normal is not along an axis.
     pub slanted_planes: u64,
@@ -68,12 +68,17 @@ impl Work {
     }
 
     /// The terms of the instruction model, by name.
-    pub fn terms(&self) -> [(&'static str, u64); 11] {
+    pub fn terms(&self) -> [(&'static str, u64); 12] {
         let count = &self.count;
         let secondary_rays = count.reflected_rays + count.refracted_rays;
         let has_bvh = count.box_tests > 0;
         [
             ("pixels", self.pixels),
+            // On a core with hardware for floats the loop over samples takes more than a ray that hits nothing.
+            (
+                "extra_samples",
+                count.primary_rays.saturating_sub(self.pixels),
+            ),
             ("compared_pixels", self.compared_pixels),
             ("primary_rays", count.primary_rays),
             ("secondary_rays", secondary_rays),
