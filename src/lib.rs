@@ -25,7 +25,7 @@
 //!
 //! # One idea
 //!
-//! A pixel is a pure function of scene, settings and coordinates. Rows, bands, pictures, [`Frame`]s that
+//! A pixel is a pure function of scene, settings and coordinates. Rows, bands, pictures, [`Frame`](render::Frame)s that
 //! stop after a budget of rays, a second core: all are only schedules over that function and give the
 //! same bits, on every machine: only `+ − × ÷ √` of IEEE 754 are used, in source order, never fused, and
 //! software functions of this crate and of libm.
@@ -39,8 +39,8 @@
 //!
 //! # More or less
 //!
-//! [`Tracer::with_cutoff`] leaves out rays that hardly show, with a bound on what is lost. [`Supersampled`] and
-//! [`Adaptive`] sample pixels more than once, everywhere or at edges. [`Progressive`] shows blocks first and
+//! [`Tracer::with_cutoff`] leaves out rays that hardly show, with a bound on what is lost. [`Supersampled`](render::Supersampled) and
+//! [`Adaptive`](render::Adaptive) sample pixels more than once, everywhere or at edges. [`Progressive`](render::Progressive) shows blocks first and
 //! refines them. None costs anything where it is not used, and all keep to the one idea above.
 //!
 //! # Memory
