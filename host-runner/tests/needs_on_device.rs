@@ -89,7 +89,8 @@ fn the_lines_compile_and_the_sizes_are_the_compilers() {
             .into_string()
             .unwrap()
     };
-    let mut source = "#![no_std]\nuse scanray::{render::Frame, tracer::DepthError, *};\n".to_owned();
+    let mut source =
+        "#![no_std]\nuse scanray::{render::Frame, tracer::DepthError, *};\n".to_owned();
     for (index, (name, more)) in [
         ("default.txt", &[][..]),
         ("pyramids.txt", &["--max-depth", "2"]),
