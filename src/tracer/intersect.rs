@@ -67,7 +67,7 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
 
     /// The members of a set, by their indices.
     #[inline(always)]
-    pub(super) fn members(&self, set: ObjectSet) -> Members {
+    fn members(&self, set: ObjectSet) -> Members {
         set.members_among(stage(STAGES, Stages::MANY_OBJECTS))
     }
 
@@ -110,7 +110,7 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
     /// Makes the closest of the members of one shape, whose indices begin at `first`, the closest; gives the index behind
     /// them.
     #[inline(always)]
-    pub(super) fn closest_of<P: ListedShape<T>>(
+    fn closest_of<P: ListedShape<T>>(
         &self,
         first: usize,
         members: &mut Members,
@@ -255,7 +255,7 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
 
     /// Whether a member of one shape, whose indices begin at `first`, casts a shadow.
     #[inline(always)]
-    pub(super) fn occluded_by<P: ListedShape<T>>(
+    fn occluded_by<P: ListedShape<T>>(
         &self,
         first: usize,
         members: &mut Members,
@@ -297,7 +297,7 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
 
     /// Candidates without the object that the ray leaves, if it is flat.
     #[inline(always)]
-    pub(super) fn without_left(&self, ray: &Ray<T>, candidates: ObjectSet) -> ObjectSet {
+    fn without_left(&self, ray: &Ray<T>, candidates: ObjectSet) -> ObjectSet {
         // What is known of its sides leaves it out already.
         if self.scene.accel.sides.is_empty() {
             self.without_flat(ray.leaves.object() as usize, candidates)
@@ -310,7 +310,7 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
     // Scenes that were loaded or baked do not come here.
     #[cold]
     #[inline(never)]
-    pub(super) fn without_flat(&self, index: usize, candidates: ObjectSet) -> ObjectSet {
+    fn without_flat(&self, index: usize, candidates: ObjectSet) -> ObjectSet {
         let is_flat = self.geometry().is_flat(index);
         if is_flat && index < ObjectSet::TOLD_APART {
             candidates.without(ObjectSet::NONE.with(index))
