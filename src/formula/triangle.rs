@@ -27,12 +27,11 @@ pub fn reach<N: Number>(radius_squared: N, b: N) -> N {
     radius_squared + slack(b) * (b * b)
 }
 
-/// Moves points so that a ray is the z axis.
+/// Moves points so that a ray is the z axis, and forgets how far along it they are.
 #[derive(Clone, Copy, Debug)]
 pub struct Shear<N> {
     x: N,
     y: N,
-    scale: N,
 }
 
 impl<N: Number> Shear<N> {
@@ -40,30 +39,22 @@ impl<N: Number> Shear<N> {
     #[inline(always)]
     pub fn along(direction: Vec3<N>) -> Self {
         let Vec3 { x, y, z } = direction;
-        Self {
-            scale: z.constant(1.0) / z,
-            x: x / z,
-            y: y / z,
-        }
+        Self { x: x / z, y: y / z }
     }
 
-    /// The place of a point, as seen from the ray's origin, the axes exchanged alike.
+    /// Where a point is across the ray, as seen from the ray's origin, the axes exchanged alike.
     #[inline(always)]
-    pub fn apply(&self, point: Vec3<N>) -> Vec3<N> {
-        Vec3::new(
-            point.x - self.x * point.z,
-            point.y - self.y * point.z,
-            self.scale * point.z,
-        )
+    pub fn apply(&self, point: Vec3<N>) -> [N; 2] {
+        [point.x - self.x * point.z, point.y - self.y * point.z]
     }
 }
 
 /// The edge function `p × q` in the plane across the ray. It has the right sign unless it is 0: the difference of two
 /// rounded products has it, because rounding is monotonic. Where they are equal, what rounding took from them remains: the
-/// difference of [`product_error`] of `p.x, q.y` and of `p.y, q.x`.
+/// difference of [`product_error`] of `px, qy` and of `py, qx`.
 #[inline(always)]
-pub fn edge<N: Number>(p: Vec3<N>, q: Vec3<N>) -> N {
-    p.x * q.y - p.y * q.x
+pub fn edge<N: Number>([px, py]: [N; 2], [qx, qy]: [N; 2]) -> N {
+    px * qy - py * qx
 }
 
 /// `a·b − round(a·b)`, exactly, barring underflow. Dekker, "A floating-point technique for extending
@@ -84,19 +75,24 @@ fn split<N: Number>(x: N) -> (N, N) {
     (high, x - high)
 }
 
-/// Distance of a hit and the weights of the second and third vertex there, from the edge functions opposite the vertices, their sum
-/// and the sheared vertices.
+/// How far a ray rises to the plane of a triangle, along the normal, and how much it rises on its way: it crosses the plane at
+/// the quotient; `to_vertex` is the way from the ray's origin to a vertex.
+///
+/// The edge functions give the distance, too, as a mean of the vertices' weighted with them. But on a triangle of length `L` and
+/// height `h` they are of the size of `Lh` and may be differences of numbers of the size of `L²`: that mean is off by `uL²/h`,
+/// and this by `uL`, where the ray does not graze the plane ([`GRAZING`]). (Few triangles lie along the axes: there is no shorter
+/// way for them.)
 #[inline(always)]
-pub fn interpolate<N: Number>([u, v, w]: [N; 3], sum: N, [a, b, c]: [Vec3<N>; 3]) -> (N, [N; 2]) {
-    let inverse = sum.constant(1.0) / sum;
-    let t = (u * a.z + v * b.z + w * c.z) * inverse;
-    (t, [v * inverse, w * inverse])
+pub fn rise<N: Number>(normal: Vec3<N>, to_vertex: Vec3<N>, direction: Vec3<N>) -> (N, N) {
+    (normal.dot(to_vertex), normal.dot(direction))
 }
 
-/// The point of two weights: interpolated between the vertices, it lies as close to the
-/// triangle as its own coordinates allow, however far the ray has come.
+/// Where a ray rises less than this on its way the quotient of [`rise`] may be off by more than the size of the
+/// triangle, and is limited to where the vertices are.
+pub const GRAZING: f64 = 0.25;
+
+/// The point of the plane of a triangle that is nearest to a place.
 #[inline(always)]
-pub fn point<N: Number>([v1, v2, v3]: [Vec3<N>; 3], [at_v2, at_v3]: [N; 2]) -> Vec3<N> {
-    let at_v1 = at_v2.constant(1.0) - at_v2 - at_v3;
-    v1 * at_v1 + v2 * at_v2 + v3 * at_v3
+pub fn project<N: Number>(place: Vec3<N>, normal: Vec3<N>, vertex: Vec3<N>) -> Vec3<N> {
+    place - normal * normal.dot(place - vertex)
 }

@@ -1,8 +1,7 @@
 //! Flat discs.
 
 use super::{
-    Barycentric, BoundingSphere, Kind, ObjectInfo, Primitive, Shape, ShapeError, StoredShape,
-    SurfacePoint,
+    BoundingSphere, Kind, ObjectInfo, Primitive, Shape, ShapeError, StoredShape, SurfacePoint,
 };
 use crate::formula::{self, origin_offset};
 use crate::ray::Ray;
@@ -154,12 +153,12 @@ impl<T: Scalar> Primitive<T> for Disc<T> {
     }
 
     #[inline(always)]
-    fn hit(&self, ray: &Ray<T>, t_max: T) -> Option<(T, Barycentric<T>)> {
-        Some((self.intersect(ray, t_max)?, Barycentric::ZERO))
+    fn hit(&self, ray: &Ray<T>, t_max: T) -> Option<T> {
+        self.intersect(ray, t_max)
     }
 
     #[inline(always)]
-    fn point(&self, ray: &Ray<T>, t: T, _: Barycentric<T>) -> SurfacePoint<T> {
+    fn point(&self, ray: &Ray<T>, t: T) -> SurfacePoint<T> {
         SurfacePoint {
             point: self.project(ray, t),
             normal: self.normal,

@@ -21,7 +21,7 @@ pub use plane::Plane;
 pub use sphere::Sphere;
 pub(crate) use stored::StoredShape;
 pub use stored::{Stored, StoredEntry, StoredObject};
-pub use triangle::{Barycentric, Triangle};
+pub use triangle::Triangle;
 
 use core::fmt;
 
@@ -250,8 +250,6 @@ pub(crate) trait Primitive<T: Scalar>: Copy {
     const IS_FLAT: bool;
     /// It can be in a box of the hierarchy.
     const IS_BOUNDED: bool;
-    /// [`Primitive::point`] needs the place that [`Primitive::hit`] tells.
-    const HAS_PLACE: bool = false;
 
     /// What describes it.
     fn shape(&self) -> Shape<T>;
@@ -268,17 +266,17 @@ pub(crate) trait Primitive<T: Scalar>: Copy {
     /// The lowest and the highest coordinates of what rays can hit; `None` if it is unbounded.
     fn bounding_box(&self) -> Option<[Vec3<T>; 2]>;
 
-    /// Distance, above 0, of the nearest hit, and where on the object. One beyond `t_max` may be told or not.
-    fn hit(&self, ray: &Ray<T>, t_max: T) -> Option<(T, Barycentric<T>)>;
+    /// Distance, above 0, of the nearest hit. One beyond `t_max` may be told or not.
+    fn hit(&self, ray: &Ray<T>, t_max: T) -> Option<T>;
 
     /// Whether there is a hit within `0 < t < t_max`.
     #[inline(always)]
     fn occludes(&self, ray: &Ray<T>, t_max: T) -> bool {
-        matches!(self.hit(ray, t_max), Some((t, _)) if t < t_max)
+        matches!(self.hit(ray, t_max), Some(t) if t < t_max)
     }
 
     /// The point of a hit, projected back onto the surface.
-    fn point(&self, ray: &Ray<T>, t: T, place: Barycentric<T>) -> SurfacePoint<T>;
+    fn point(&self, ray: &Ray<T>, t: T) -> SurfacePoint<T>;
 }
 
 /// A shape that has a slice of its own in every scene.

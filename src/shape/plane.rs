@@ -1,8 +1,8 @@
 //! Infinite planes.
 
 use super::{
-    Barycentric, BoundingSphere, Geometry, Kind, ListedShape, Object, ObjectInfo, Primitive, Shape,
-    ShapeError, SurfacePoint,
+    BoundingSphere, Geometry, Kind, ListedShape, Object, ObjectInfo, Primitive, Shape, ShapeError,
+    SurfacePoint,
 };
 use crate::formula;
 use crate::ray::Ray;
@@ -134,8 +134,8 @@ impl<T: Scalar> Primitive<T> for Plane<T> {
     }
 
     #[inline(always)]
-    fn hit(&self, ray: &Ray<T>, _: T) -> Option<(T, Barycentric<T>)> {
-        Some((self.crossing(ray)?, Barycentric::ZERO))
+    fn hit(&self, ray: &Ray<T>, _: T) -> Option<T> {
+        self.crossing(ray)
     }
 
     #[inline(always)]
@@ -144,7 +144,7 @@ impl<T: Scalar> Primitive<T> for Plane<T> {
     }
 
     #[inline(always)]
-    fn point(&self, ray: &Ray<T>, t: T, _: Barycentric<T>) -> SurfacePoint<T> {
+    fn point(&self, ray: &Ray<T>, t: T) -> SurfacePoint<T> {
         self.surface_point(ray, t)
     }
 }

@@ -2,8 +2,8 @@
 
 use super::quick_reject::QuickReject;
 use super::{
-    Barycentric, BoundingSphere, Geometry, Kind, ListedShape, Object, ObjectInfo, Primitive, Shape,
-    ShapeError, SurfacePoint,
+    BoundingSphere, Geometry, Kind, ListedShape, Object, ObjectInfo, Primitive, Shape, ShapeError,
+    SurfacePoint,
 };
 use crate::formula::{self, origin_offset};
 use crate::ray::Ray;
@@ -207,8 +207,8 @@ impl<T: Scalar> Primitive<T> for Sphere<T> {
     }
 
     #[inline(always)]
-    fn hit(&self, ray: &Ray<T>, _: T) -> Option<(T, Barycentric<T>)> {
-        Some((self.crossing(ray)?, Barycentric::ZERO))
+    fn hit(&self, ray: &Ray<T>, _: T) -> Option<T> {
+        self.crossing(ray)
     }
 
     #[inline(always)]
@@ -217,7 +217,7 @@ impl<T: Scalar> Primitive<T> for Sphere<T> {
     }
 
     #[inline(always)]
-    fn point(&self, ray: &Ray<T>, t: T, _: Barycentric<T>) -> SurfacePoint<T> {
+    fn point(&self, ray: &Ray<T>, t: T) -> SurfacePoint<T> {
         self.surface_point(ray, t)
     }
 }

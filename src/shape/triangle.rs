@@ -5,7 +5,7 @@ use super::{
     BoundingSphere, Geometry, Kind, ListedShape, Object, ObjectInfo, Primitive, Shape, ShapeError,
     SurfacePoint, extent,
 };
-use crate::formula::triangle::{Shear, edge, interpolate, point, product_error, reach, slack};
+use crate::formula::triangle::{GRAZING, Shear, edge, product_error, project, reach, rise, slack};
 use crate::formula::{origin_offset, sphere::closest_approach};
 use crate::ray::Ray;
 use crate::real::Real;
@@ -27,23 +27,6 @@ pub struct Triangle<T = f32> {
     normal: Vec3<T>,
     offset: T,
     info: ObjectInfo,
-}
-
-/// Where on a triangle: the weights of its second and third vertex.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Barycentric<T> {
-    /// Weight of the second vertex, in 0…1.
-    pub v2: T,
-    /// Weight of the third vertex, in 0…1.
-    pub v3: T,
-}
-
-impl<T: Scalar> Barycentric<T> {
-    /// The first vertex, or nowhere on what is no triangle.
-    pub(crate) const ZERO: Self = Self {
-        v2: T::ZERO,
-        v3: T::ZERO,
-    };
 }
 
 impl<T: Scalar> Triangle<T> {
@@ -169,22 +152,27 @@ impl<T: Scalar> Triangle<T> {
             .is_up_to(reach(Real(self.bounds_radius_squared), b).0)
     }
 
-    /// Distance and place of the crossing within `0 < t ≤ t_max`.
+    /// Distance of the crossing within `0 < t ≤ t_max`.
     #[inline(always)]
-    pub fn intersect(&self, ray: &Ray<T>, t_max: T) -> Option<(T, Barycentric<T>)> {
+    pub fn intersect(&self, ray: &Ray<T>, t_max: T) -> Option<T> {
+        self.crossing(ray).filter(|t| t.is_up_to(t_max))
+    }
+
+    /// [`Triangle::intersect`] without a limit; the distance may be infinite.
+    #[inline(always)]
+    fn crossing(&self, ray: &Ray<T>) -> Option<T> {
         if !self.may_hit(ray) {
             return None;
         }
         let (o, d) = (ray.origin, ray.direction);
-        self.intersect_exactly(o.x, o.y, o.z, d.x, d.y, d.z)
-            .filter(|(t, _)| t.is_up_to(t_max))
+        self.crossing_exactly(o.x, o.y, o.z, d.x, d.y, d.z)
     }
 
     /// The watertight test of [`formula::triangle`](crate::formula::triangle).
     // Numbers are passed in registers; a vector is passed by a reference, which would keep the tracer's rays in
     // memory.
     #[inline]
-    fn intersect_exactly(
+    fn crossing_exactly(
         &self,
         origin_x: T,
         origin_y: T,
@@ -192,14 +180,14 @@ impl<T: Scalar> Triangle<T> {
         direction_x: T,
         direction_y: T,
         direction_z: T,
-    ) -> Option<(T, Barycentric<T>)> {
+    ) -> Option<T> {
         let origin = Vec3::new(origin_x, origin_y, origin_z);
         let direction = Vec3::new(direction_x, direction_y, direction_z);
         // Turn the axes so that z is the ray's largest component; the winding does not matter here.
         let turn = Turn::largest_to_z(direction);
         let shear = Shear::along(turn.apply(direction).real());
-        let sheared = |vertex: Vec3<T>| shear.apply(turn.apply(vertex - origin).real());
         let [v1, v2, v3] = self.vertices;
+        let sheared = |vertex: Vec3<T>| shear.apply(turn.apply(vertex - origin).real());
         let (a, b, c) = (sheared(v1), sheared(v2), sheared(v3));
         let (u, v, w) = (signed_edge(c, b), signed_edge(a, c), signed_edge(b, a));
         // Inside: no two edge functions of opposite sign.
@@ -208,31 +196,56 @@ impl<T: Scalar> Triangle<T> {
                 || (u.0.is_zero_or_negative()
                     && v.0.is_zero_or_negative()
                     && w.0.is_zero_or_negative());
-        let determinant = u + v + w;
-        if !inside || determinant.0.is_zero() {
+        if !inside || (u + v + w).0.is_zero() {
             return None;
         }
-        let (t, [v2, v3]) = interpolate([u, v, w], determinant, [a, b, c]);
-        if t.0.is_positive() {
-            Some((t.0, Barycentric { v2: v2.0, v3: v3.0 }))
+        let (below, slope) = rise(self.normal.real(), (v1 - origin).real(), direction.real());
+        let t = (below / slope).0;
+        let t = if slope.0.abs().is_before(T::from_f64(GRAZING)) {
+            self.limited(t, turn, turn.apply(origin).z, turn.apply(direction).z)
         } else {
-            None
+            t
+        };
+        t.is_positive().then_some(t)
+    }
+
+    /// A distance limited to where the vertices are along an axis, given what a ray has there; not a number remains none.
+    #[cold]
+    #[inline(never)]
+    fn limited(&self, t: T, turn: Turn, origin: T, direction: T) -> T {
+        // Without arrays, which would be on the stack of every ray.
+        let [v1, v2, v3] = &self.vertices;
+        let lesser = |a: T, b: T| if b < a { b } else { a };
+        let greater = |a: T, b: T| if b > a { b } else { a };
+        let (v1, v2, v3) = match turn {
+            Turn::None => (v1.z, v2.z, v3.z),
+            Turn::XToZ => (v1.x, v2.x, v3.x),
+            Turn::YToZ => (v1.y, v2.y, v3.y),
+        };
+        let (lowest, highest) = (lesser(lesser(v1, v2), v3), greater(greater(v1, v2), v3));
+        let (lowest, highest) = (lowest - origin, highest - origin);
+        let along = t * direction;
+        if along < lowest {
+            lowest / direction
+        } else if along > highest {
+            highest / direction
+        } else {
+            t
         }
     }
 
     /// Whether the ray crosses the triangle within `0 < t < t_max`.
     #[inline(always)]
     pub fn occludes(&self, ray: &Ray<T>, t_max: T) -> bool {
-        matches!(self.intersect(ray, t_max), Some((t, _)) if t < t_max)
+        matches!(self.intersect(ray, t_max), Some(t) if t < t_max)
     }
 
-    /// The point at a place on the triangle.
+    /// The point at distance `t`, projected back onto the plane of the triangle.
     #[inline(always)]
-    pub fn surface_point(&self, place: Barycentric<T>) -> SurfacePoint<T> {
-        let [v1, v2, v3] = self.vertices;
-        let vertices = [v1.real(), v2.real(), v3.real()];
+    pub fn surface_point(&self, ray: &Ray<T>, t: T) -> SurfacePoint<T> {
+        let [vertex, ..] = self.vertices;
         SurfacePoint {
-            point: point(vertices, [Real(place.v2), Real(place.v3)]).plain(),
+            point: project(ray.at(t).real(), self.normal.real(), vertex.real()).plain(),
             normal: self.normal,
             offset: self.offset,
         }
@@ -243,7 +256,6 @@ impl<T: Scalar> Primitive<T> for Triangle<T> {
     const KIND: Kind = Kind::Triangle;
     const IS_FLAT: bool = true;
     const IS_BOUNDED: bool = true;
-    const HAS_PLACE: bool = true;
 
     fn shape(&self) -> Shape<T> {
         Shape::Triangle(self.vertices)
@@ -275,7 +287,7 @@ impl<T: Scalar> Primitive<T> for Triangle<T> {
     }
 
     #[inline(always)]
-    fn hit(&self, ray: &Ray<T>, t_max: T) -> Option<(T, Barycentric<T>)> {
+    fn hit(&self, ray: &Ray<T>, t_max: T) -> Option<T> {
         self.intersect(ray, t_max)
     }
 
@@ -285,8 +297,8 @@ impl<T: Scalar> Primitive<T> for Triangle<T> {
     }
 
     #[inline(always)]
-    fn point(&self, _: &Ray<T>, _: T, place: Barycentric<T>) -> SurfacePoint<T> {
-        self.surface_point(place)
+    fn point(&self, ray: &Ray<T>, t: T) -> SurfacePoint<T> {
+        self.surface_point(ray, t)
     }
 }
 
@@ -351,7 +363,7 @@ impl Turn {
 
 /// The edge function with the right sign.
 #[inline(always)]
-fn signed_edge<T: Scalar>(p: Vec3<Real<T>>, q: Vec3<Real<T>>) -> Real<T> {
+fn signed_edge<T: Scalar>(p: [Real<T>; 2], q: [Real<T>; 2]) -> Real<T> {
     // Hardly ever called, so that it is not inlined. Numbers are passed in registers. Where floats are emulated the compiler's
     // operators are smaller than this crate's, and so is one error less inlined.
     #[cold]
@@ -369,7 +381,8 @@ fn signed_edge<T: Scalar>(p: Vec3<Real<T>>, q: Vec3<Real<T>>) -> Real<T> {
     }
     let edge = edge(p, q);
     if edge.0.is_zero() {
-        Real(exact(p.x.0, q.y.0, p.y.0, q.x.0))
+        let ([px, py], [qx, qy]) = (p, q);
+        Real(exact(px.0, qy.0, py.0, qx.0))
     } else {
         edge
     }

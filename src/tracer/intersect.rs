@@ -7,8 +7,8 @@ use crate::material::Material;
 use crate::ray::Ray;
 use crate::scalar::Scalar;
 use crate::shape::{
-    self, Barycentric, Geometry, Kind, ListedShape, Object, ObjectInfo, Primitive, Stored,
-    StoredObject, StoredShape, SurfacePoint, for_each_shape, for_each_stored_shape,
+    self, Geometry, Kind, ListedShape, Object, ObjectInfo, Primitive, Stored, StoredObject,
+    StoredShape, SurfacePoint, for_each_shape, for_each_stored_shape,
 };
 use crate::stages::Stages;
 
@@ -30,26 +30,21 @@ pub(super) struct Closest<T> {
     pub(super) t: T,
     /// Index of the object among all objects; beyond all if there is none.
     pub(super) index: usize,
-    /// Where on it, if it is a triangle.
-    pub(super) place: Barycentric<T>,
 }
 
 impl<T: Scalar> Closest<T> {
     pub(super) const NONE: Self = Self {
         t: T::MAX,
         index: usize::MAX,
-        place: Barycentric::ZERO,
     };
 
-    /// Takes a hit if it comes before the closest so far, and tells whether it did: of two at exactly the same distance that of the smaller index,
+    /// Takes a hit if it comes before the closest so far: of two at exactly the same distance that of the smaller index,
     /// whatever the order in which they are offered.
     #[inline(always)]
-    pub(super) fn offer(&mut self, t: T, index: usize) -> bool {
-        let is_closer = t.is_before(self.t) || (t == self.t && index < self.index);
-        if is_closer {
+    pub(super) fn offer(&mut self, t: T, index: usize) {
+        if t.is_before(self.t) || (t == self.t && index < self.index) {
             (self.t, self.index) = (t, index);
         }
-        is_closer
     }
 }
 
@@ -129,14 +124,11 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
             |index, object| {
                 observer.test_object(object.object(), ray, closest.t);
                 // Indices ascend: of two at one distance the first stays.
-                if let Some((t, place)) = object.hit(ray, closest.t)
+                if let Some(t) = object.hit(ray, closest.t)
                     && t.is_before(closest.t)
                     && !self.is_left::<P>(ray, index)
                 {
                     (closest.t, closest.index) = (t, index);
-                    if P::HAS_PLACE {
-                        closest.place = place;
-                    }
                 }
                 false
             },
@@ -177,12 +169,10 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
         ray: &Ray<T>,
         closest: &mut Closest<T>,
     ) {
-        if let Some((t, place)) = object.hit(ray, closest.t)
+        if let Some(t) = object.hit(ray, closest.t)
             && !self.is_left::<P>(ray, index)
-            && closest.offer(t, index)
-            && P::HAS_PLACE
         {
-            closest.place = place;
+            closest.offer(t, index);
         }
     }
 
@@ -348,7 +338,7 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
                 $(if stage(STAGES, <shape::$shape<T> as Primitive<T>>::STAGE) {
                     let all = <shape::$shape<T>>::all(&self.scene.geometry);
                     if let Some(object) = all.get(index) {
-                        let point = object.point(ray, closest.t, closest.place);
+                        let point = object.point(ray, closest.t);
                         let cell = match <shape::$shape<T> as Primitive<T>>::KIND {
                             Kind::Plane => self
                                 .scene
@@ -373,7 +363,7 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
             ([$($shape:ident)*]) => {
                 match object.entry.kind {
                     $(Kind::$shape if stage(STAGES, <shape::$shape<T> as Primitive<T>>::STAGE) => {
-                        <shape::$shape<T>>::of(object).point(ray, closest.t, closest.place)
+                        <shape::$shape<T>>::of(object).point(ray, closest.t)
                     })*
                     _ => return None,
                 }

@@ -349,9 +349,9 @@ fn triangles<T: Scalar>(seed: u64, rounds: usize) {
             quick_reject += 1;
         }
         check_ends(
-            found.map(|(t, _)| t),
+            found,
             &random,
-            |end| triangle.intersect(&ray, end).map(|(t, _)| t),
+            |end| triangle.intersect(&ray, end),
             |end| triangle.occludes(&ray, end),
             &what,
         );
@@ -385,19 +385,12 @@ fn triangles<T: Scalar>(seed: u64, rounds: usize) {
                 what()
             );
         }
-        let Some((found, place)) = found else {
+        let Some(found) = found else {
             misses += 1;
             continue;
         };
         hits += 1;
-        let (w2, w3) = (place.v2.to_f64(), place.v3.to_f64());
-        let slack = 4.0 * unit::<T>();
-        assert!(
-            w2 >= 0.0 && w3 >= 0.0 && w2 + w3 <= 1.0 + slack,
-            "{place:?}: {}",
-            what()
-        );
-        let hit = triangle.surface_point(place);
+        let hit = triangle.surface_point(&ray, found);
         let extent = vertices.map(largest).into_iter().fold(0.0, f64::max);
         // On the triangle: off its exact plane by no more than where new rays start.
         let exact_normal = e3.cross(e2).normalize();
@@ -575,7 +568,7 @@ fn singly(tracer: &Tracer<'_>, ray: &Ray) -> Option<f32> {
         .filter_map(|object| match object {
             Object::Sphere(sphere) => sphere.intersect(ray, f32::MAX),
             Object::Plane(plane) => plane.intersect(ray, f32::MAX),
-            Object::Triangle(triangle) => triangle.intersect(ray, f32::MAX).map(|(t, _)| t),
+            Object::Triangle(triangle) => triangle.intersect(ray, f32::MAX),
             _ => unreachable!(),
         })
         .min_by(f32::total_cmp)

@@ -137,7 +137,6 @@ pub(super) struct Batch {
     /// The object it hits, or [`NOTHING`].
     pub(super) object: Column<u32>,
     pub(super) t: Column<f32>,
-    pub(super) place: [Column<f32>; 2],
     pub(super) color: Columns,
     /// In a scene with a hierarchy, where shadow rays start from what it hits, and the normal there; no normal for no
     /// rays.
@@ -165,7 +164,6 @@ impl Batch {
             weight: column(),
             object: column(),
             t: column(),
-            place: [column(), column()],
             color: Columns::new(),
             outside: Columns::new(),
             normal: Columns::new(),
@@ -311,12 +309,6 @@ impl Batch {
     #[inline(always)]
     pub(super) fn distances<S: Simd>(&self, simd: S, lanes: &Lanes) -> Numbers<S> {
         lanes.gather(simd, &self.t)
-    }
-
-    #[inline(always)]
-    pub(super) fn places<S: Simd>(&self, simd: S, lanes: &Lanes) -> [Numbers<S>; 2] {
-        let [v2, v3] = &self.place;
-        [lanes.gather(simd, v2), lanes.gather(simd, v3)]
     }
 
     /// The lanes that a light of a number below 32 reaches.

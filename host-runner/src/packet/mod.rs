@@ -318,9 +318,6 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
             .object
             .store_slice(&mut batch.object[at..at + LANES]);
         batch::store(&mut batch.t, at, closest.t);
-        for (column, place) in batch.place.iter_mut().zip(closest.place) {
-            batch::store(column, at, place);
-        }
         if closest.object.simd_eq(NOTHING).any_true() {
             let colors = self.background(simd, direction);
             batch.color.store(at, colors);
@@ -344,7 +341,6 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
 struct Closest<S: Simd> {
     t: Numbers<S>,
     object: Indices<S>,
-    place: [Numbers<S>; 2],
 }
 
 impl<S: Simd> Closest<S> {
@@ -353,7 +349,6 @@ impl<S: Simd> Closest<S> {
         Self {
             t: Numbers::splat(simd, f32::MAX),
             object: Indices::splat(simd, NOTHING),
-            place: [Numbers::splat(simd, 0.0); 2],
         }
     }
 
@@ -366,11 +361,5 @@ impl<S: Simd> Closest<S> {
         let closer: Mask<S> = intersection.lanes & t.simd_gt(0.0) & closer;
         self.t = Numbers::select(closer, t, self.t);
         self.object = closer.select(Indices::splat(simd, object), self.object);
-        if let Some([v2, v3]) = intersection.place {
-            self.place = [
-                Numbers::select(closer, v2, self.place[0]),
-                Numbers::select(closer, v3, self.place[1]),
-            ];
-        }
     }
 }

@@ -239,7 +239,8 @@ pub(super) fn hits<S: Simd>(
     lanes: &Lanes,
     rays: &Rays<S>,
 ) -> Hits<S> {
-    let at = target.object.points(simd, rays, batch, lanes);
+    let places = rays.at(batch.distances(simd, lanes));
+    let at = target.object.points(simd, places);
     let slope = rays.direction.along(at.normal);
     let entering = slope.simd_le(0.0);
     let normal = Vec3s::select(entering, at.normal, -at.normal);

@@ -238,8 +238,8 @@ impl<'a, T: Scalar> Textbook<'a, T> {
                     (t, plane.surface_point(&ray, t))
                 }
                 Object::Triangle(triangle) => {
-                    let (t, place) = triangle.intersect(&ray, T::MAX)?;
-                    (t, triangle.surface_point(place))
+                    let t = triangle.intersect(&ray, T::MAX)?;
+                    (t, triangle.surface_point(&ray, t))
                 }
                 _ => return None,
             };

@@ -7,7 +7,6 @@ use scanray::shape::Disc;
 use scanray::shape::Object;
 
 use super::{Bounds, Intersection, LaneShape, Point};
-use crate::packet::batch::{Batch, Lanes};
 use crate::packet::lanes::{InLanes, Numbers, Rays, Vec3s};
 
 impl LaneShape for Disc {
@@ -45,19 +44,15 @@ impl LaneShape for Disc {
         let center = Vec3s::in_every_lane(simd, bounds.center);
         let t = crossing(normal, height, rays.origin, rays.direction);
         let lanes = eccentricity(rays.at(t), center, normal, height).simd_le(bounds.radius_squared);
-        lanes.any_true().then_some(Intersection {
-            lanes,
-            t,
-            place: None,
-        })
+        lanes.any_true().then_some(Intersection { lanes, t })
     }
 
     #[inline(always)]
-    fn points<S: Simd>(&self, simd: S, rays: &Rays<S>, batch: &Batch, lanes: &Lanes) -> Point<S> {
+    fn points<S: Simd>(&self, simd: S, places: Vec3s<S>) -> Point<S> {
         let normal = Vec3s::in_every_lane(simd, self.normal());
         let height = Numbers::splat(simd, self.height());
         Point {
-            point: project(rays.at(batch.distances(simd, lanes)), normal, height),
+            point: project(places, normal, height),
             normal,
             offset: Numbers::splat(simd, self.offset()),
         }

@@ -16,7 +16,6 @@ use scanray::shape::{Disc, Plane, Sphere, Triangle};
 use scanray::{Vec3, accel::ObjectSet, shape::Object};
 
 use super::Closest;
-use super::batch::{Batch, Lanes};
 use super::lanes::{Indices, Mask, Numbers, Rays, Vec3s};
 
 /// Eight rays and a shape: `Primitive` of the core. The formulas are the core's; which lanes they hold for is decided here.
@@ -54,12 +53,12 @@ pub(super) trait LaneShape: Sized {
         rays: &Rays<S>,
         t_max: Numbers<S>,
     ) -> Option<Mask<S>> {
-        let Intersection { lanes, t, .. } = self.intersections(simd, bounds, rays)?;
+        let Intersection { lanes, t } = self.intersections(simd, bounds, rays)?;
         Some(lanes & t.simd_gt(0.0) & t.simd_lt(t_max))
     }
 
-    /// The points where rays of a batch hit it. `Primitive::point`.
-    fn points<S: Simd>(&self, simd: S, rays: &Rays<S>, batch: &Batch, lanes: &Lanes) -> Point<S>;
+    /// The points of hits, projected back from where the distances lead to. `Primitive::point`.
+    fn points<S: Simd>(&self, simd: S, places: Vec3s<S>) -> Point<S>;
 }
 
 /// A sphere.
@@ -76,8 +75,6 @@ pub(super) struct Intersection<S: Simd> {
     pub(super) lanes: Mask<S>,
     /// Distance; not above 0 or NaN for none.
     pub(super) t: Numbers<S>,
-    /// Where on it, if [`LaneShape::points`] needs that: weights of the second and third vertex of a triangle.
-    pub(super) place: Option<[Numbers<S>; 2]>,
 }
 
 /// A point of a surface for each ray: `SurfacePoint` of the core.
@@ -364,16 +361,10 @@ fn occlude<S: Simd, O: LaneShape>(
 }
 
 impl LaneObject<'_> {
-    /// The points where rays of a batch hit it.
+    /// The points of hits, projected back from where the distances lead to.
     #[inline(always)]
-    pub(super) fn points<S: Simd>(
-        &self,
-        simd: S,
-        rays: &Rays<S>,
-        batch: &Batch,
-        lanes: &Lanes,
-    ) -> Point<S> {
-        with_object!(self, shape => shape.points(simd, rays, batch, lanes))
+    pub(super) fn points<S: Simd>(&self, simd: S, places: Vec3s<S>) -> Point<S> {
+        with_object!(self, shape => shape.points(simd, places))
     }
 }
 

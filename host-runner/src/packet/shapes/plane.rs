@@ -6,7 +6,6 @@ use scanray::shape::Object;
 use scanray::shape::Plane;
 
 use super::{Bounds, Intersection, LaneShape, Point};
-use crate::packet::batch::{Batch, Lanes};
 use crate::packet::lanes::{InLanes, Mask, Numbers, Rays, Vec3s};
 
 impl LaneShape for Plane {
@@ -41,15 +40,14 @@ impl LaneShape for Plane {
         Some(Intersection {
             lanes: Mask::splat(simd, true),
             t: below / slope,
-            place: None,
         })
     }
 
     #[inline(always)]
-    fn points<S: Simd>(&self, simd: S, rays: &Rays<S>, batch: &Batch, lanes: &Lanes) -> Point<S> {
+    fn points<S: Simd>(&self, simd: S, places: Vec3s<S>) -> Point<S> {
         let normal = Vec3s::in_every_lane(simd, self.normal());
         let height = Numbers::splat(simd, self.height());
-        let point = project(rays.at(batch.distances(simd, lanes)), normal, height);
+        let point = project(places, normal, height);
         Point {
             point,
             normal,

@@ -6,7 +6,6 @@ use scanray::shape::Object;
 use scanray::shape::Sphere;
 
 use super::{Bounds, Intersection, LaneShape, Point};
-use crate::packet::batch::{Batch, Lanes};
 use crate::packet::lanes::{InLanes, Mask, Numbers, Rays, Vec3s};
 
 impl LaneShape for Sphere {
@@ -42,7 +41,6 @@ impl LaneShape for Sphere {
         Some(Intersection {
             lanes: Mask::splat(simd, true),
             t: Numbers::select(near.simd_gt(0.0), near, far),
-            place: None,
         })
     }
 
@@ -60,10 +58,10 @@ impl LaneShape for Sphere {
     }
 
     #[inline(always)]
-    fn points<S: Simd>(&self, simd: S, rays: &Rays<S>, batch: &Batch, lanes: &Lanes) -> Point<S> {
+    fn points<S: Simd>(&self, simd: S, places: Vec3s<S>) -> Point<S> {
         let center = Vec3s::in_every_lane(simd, self.center());
         let radius = Numbers::splat(simd, self.radius());
-        let (point, normal) = project(rays.at(batch.distances(simd, lanes)), center, radius);
+        let (point, normal) = project(places, center, radius);
         Point {
             point,
             normal,

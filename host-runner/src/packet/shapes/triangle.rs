@@ -2,12 +2,11 @@
 
 use fearless_simd::prelude::*;
 use scanray::formula::sphere::closest_approach;
-use scanray::formula::triangle::{Shear, edge, interpolate, point, product_error, reach};
+use scanray::formula::triangle::{GRAZING, Shear, edge, product_error, project, reach, rise};
 use scanray::shape::Triangle;
 use scanray::{Vec3, shape::Object};
 
 use super::{Bounds, Intersection, LaneShape, Point};
-use crate::packet::batch::{Batch, Lanes};
 use crate::packet::lanes::{InLanes, Mask, Numbers, Rays, Vec3s};
 
 impl LaneShape for Triangle {
@@ -32,7 +31,7 @@ impl LaneShape for Triangle {
         }
     }
 
-    /// `Triangle::intersect_exactly`.
+    /// `Triangle::crossing_exactly`.
     #[inline(always)]
     fn intersections<S: Simd>(
         &self,
@@ -46,39 +45,38 @@ impl LaneShape for Triangle {
         }
         let turn = Turn::largest_to_z(rays.direction);
         let shear = Shear::along(turn.apply(rays.direction));
-        let [v1, v2, v3] = self.vertices();
-        let a = shear.apply(turn.apply(Vec3s::in_every_lane(simd, v1) - rays.origin));
-        let b = shear.apply(turn.apply(Vec3s::in_every_lane(simd, v2) - rays.origin));
-        let c = shear.apply(turn.apply(Vec3s::in_every_lane(simd, v3) - rays.origin));
+        let to_vertices = self
+            .vertices()
+            .map(|vertex| Vec3s::in_every_lane(simd, vertex) - rays.origin);
+        let [v1, v2, v3] = to_vertices.map(|to_vertex| turn.apply(to_vertex));
+        let (a, b, c) = (shear.apply(v1), shear.apply(v2), shear.apply(v3));
         let u = signed_edge(c, b, lanes);
         let v = signed_edge(a, c, lanes);
         let w = signed_edge(b, a, lanes);
         let positive = u.simd_ge(0.0) & v.simd_ge(0.0) & w.simd_ge(0.0);
         let negative = u.simd_le(0.0) & v.simd_le(0.0) & w.simd_le(0.0);
-        let determinant = u + v + w;
-        let inside = lanes & (positive | negative) & !determinant.simd_eq(0.0);
+        let inside = lanes & (positive | negative) & !(u + v + w).simd_eq(0.0);
         if !inside.any_true() {
             return None;
         }
-        let (t, place) = interpolate([u, v, w], determinant, [a, b, c]);
-        Some(Intersection {
-            lanes: inside,
-            t,
-            place: Some(place),
-        })
+        let normal = Vec3s::in_every_lane(simd, self.normal());
+        let (below, slope) = rise(normal, to_vertices[0], rays.direction);
+        let mut t = below / slope;
+        let grazing = slope.abs().simd_lt(GRAZING as f32);
+        if (grazing & inside).any_true() {
+            let limited = limited(t, turn.apply(rays.direction).z, [v1.z, v2.z, v3.z]);
+            t = Numbers::select(grazing, limited, t);
+        }
+        Some(Intersection { lanes: inside, t })
     }
 
     #[inline(always)]
-    fn points<S: Simd>(&self, simd: S, _: &Rays<S>, batch: &Batch, lanes: &Lanes) -> Point<S> {
-        let [v1, v2, v3] = self.vertices();
-        let vertices = [
-            Vec3s::in_every_lane(simd, v1),
-            Vec3s::in_every_lane(simd, v2),
-            Vec3s::in_every_lane(simd, v3),
-        ];
+    fn points<S: Simd>(&self, simd: S, places: Vec3s<S>) -> Point<S> {
+        let [vertex, ..] = self.vertices();
+        let normal = Vec3s::in_every_lane(simd, self.normal());
         Point {
-            point: point(vertices, batch.places(simd, lanes)),
-            normal: Vec3s::in_every_lane(simd, self.normal()),
+            point: project(places, normal, Vec3s::in_every_lane(simd, vertex)),
+            normal,
             offset: Numbers::splat(simd, self.offset()),
         }
     }
@@ -90,6 +88,17 @@ fn may_hit<S: Simd>(simd: S, bounds: Bounds, rays: &Rays<S>) -> Mask<S> {
     let center = Vec3s::in_every_lane(simd, bounds.center);
     let (b, across) = closest_approach(center, rays.origin, rays.direction);
     across.simd_le(reach(Numbers::splat(simd, bounds.radius_squared), b))
+}
+
+/// The core's `limited`.
+#[inline(always)]
+fn limited<S: Simd>(t: Numbers<S>, slope: Numbers<S>, [v1, v2, v3]: [Numbers<S>; 3]) -> Numbers<S> {
+    let lesser = |a: Numbers<S>, b: Numbers<S>| Numbers::select(b.simd_lt(a), b, a);
+    let greater = |a: Numbers<S>, b: Numbers<S>| Numbers::select(b.simd_gt(a), b, a);
+    let along = t * slope;
+    let (lowest, highest) = (lesser(lesser(v1, v2), v3), greater(greater(v1, v2), v3));
+    let raised = Numbers::select(along.simd_lt(lowest), lowest / slope, t);
+    Numbers::select(along.simd_gt(highest), highest / slope, raised)
 }
 
 /// The core's `Turn`, as the lanes that turn each way.
@@ -118,11 +127,12 @@ impl<S: Simd> Turn<S> {
 
 /// The core's `signed_edge`, exact where the edge function is 0 in one of the lanes of a mask.
 #[inline(always)]
-fn signed_edge<S: Simd>(p: Vec3s<S>, q: Vec3s<S>, lanes: Mask<S>) -> Numbers<S> {
+fn signed_edge<S: Simd>(p: [Numbers<S>; 2], q: [Numbers<S>; 2], lanes: Mask<S>) -> Numbers<S> {
     let edge = edge(p, q);
     let is_zero = edge.simd_eq(0.0);
     if (is_zero & lanes).any_true() {
-        let exact = product_error(p.x, q.y) - product_error(p.y, q.x);
+        let ([px, py], [qx, qy]) = (p, q);
+        let exact = product_error(px, qy) - product_error(py, qx);
         Numbers::select(is_zero, exact, edge)
     } else {
         edge

@@ -279,7 +279,7 @@ fn rays_that_are_no_rays<T: Number>(record: &mut Record) {
             let found = [
                 sphere.intersect(&ray, T::MAX),
                 plane.intersect(&ray, T::MAX),
-                triangle.intersect(&ray, T::MAX).map(|(t, _)| t),
+                triangle.intersect(&ray, T::MAX),
             ];
             let occluded = [
                 sphere.occludes(&ray, T::MAX),
