@@ -114,7 +114,7 @@ impl<T: Scalar> fmt::Display for Baked<'_, Scene<'_, T>> {
         list(f, "", accel.grids, ",")?;
         list(f, "", accel.bvh.nodes, ",")?;
         list(f, "", accel.bvh.entries, ",")?;
-        write!(f, "    ))")
+        write!(f, "    {}))", accel.lights_are_clear)
     }
 }
 

@@ -61,6 +61,15 @@ pub struct Ray<T = f32> {
     pub leaves: Side,
 }
 
+/// Where a shadow ray ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RayEnd<T = f32> {
+    /// Distance along the ray.
+    pub distance: T,
+    /// The light there, if it is for one.
+    pub light: Option<Vec3<T>>,
+}
+
 impl<T: Scalar> Ray<T> {
     /// A ray that starts in the open.
     #[inline(always)]

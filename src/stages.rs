@@ -67,6 +67,8 @@ stages! {
     SEVERAL_LIGHTS = 16, "several lights";
     /// Discs.
     DISCS = 17, "discs";
+    /// Lights that are near a surface, or not known not to be.
+    LIGHT_ON_SURFACE = 18, "light on surface";
 }
 
 impl Stages {

@@ -53,6 +53,8 @@ pub struct Accel<'a, T = f32> {
     pub(crate) grids: &'a [PlaneGrid<T>],
     /// Of a large scene, what its bounded objects are found by.
     pub(crate) bvh: Bvh<'a, T>,
+    /// No light is near a surface; if that is not known, each shadow ray asks.
+    pub(crate) lights_are_clear: bool,
 }
 
 impl<'a, T> Accel<'a, T> {
@@ -61,6 +63,7 @@ impl<'a, T> Accel<'a, T> {
         sides: &[],
         grids: &[],
         bvh: Bvh::NONE,
+        lights_are_clear: false,
     };
 
     /// For baked scenes alone: nothing checks that it belongs to the scene.
@@ -70,11 +73,13 @@ impl<'a, T> Accel<'a, T> {
         grids: &'a [PlaneGrid<T>],
         nodes: &'a [BvhNode<T>],
         entries: &'a [u32],
+        lights_are_clear: bool,
     ) -> Self {
         Self {
             sides,
             grids,
             bvh: Bvh { nodes, entries },
+            lights_are_clear,
         }
     }
 
@@ -88,6 +93,11 @@ impl<'a, T> Accel<'a, T> {
     /// entry, anything.
     pub const fn sides(&self) -> &'a [Candidates] {
         self.sides
+    }
+
+    /// Whether it is known that no light is so near to a surface that rounding may decide on which side.
+    pub const fn lights_are_clear(&self) -> bool {
+        self.lights_are_clear
     }
 
     /// What rays can hit that leave each plane, by place.
@@ -123,6 +133,7 @@ pub struct AccelMut<'p, T> {
     /// As many as entries.
     pub(crate) nodes: &'p mut VecView<BvhNode<T>>,
     pub(crate) entries: &'p mut VecView<u32>,
+    pub(crate) lights_are_clear: &'p mut bool,
 }
 
 impl<T: Scalar> AccelMut<'_, T> {
@@ -132,6 +143,15 @@ impl<T: Scalar> AccelMut<'_, T> {
         self.grids.clear();
         self.nodes.clear();
         self.entries.clear();
+        *self.lights_are_clear = false;
+    }
+
+    /// Finds out whether no light is near a surface.
+    pub(crate) fn find_clear_lights(&mut self, source: &Source<'_, T>) {
+        *self.lights_are_clear = source.lights.iter().all(|light| {
+            let mut objects = source.geometry.objects();
+            objects.all(|object| !object.is_near(light.position))
+        });
     }
 
     /// Derives what there is room for: lists of candidates and plane grids.
@@ -178,12 +198,12 @@ impl<T: Scalar> AccelMut<'_, T> {
 }
 
 /// What keeps an exclusion safe from rounding, for the lengths and coordinates and the radii involved.
-fn margin<T: Scalar>(lengths: T, radii: T) -> T {
+pub(crate) fn margin<T: Scalar>(lengths: T, radii: T) -> T {
     T::from_f64(1.0 / 65_536.0) * lengths + T::from_f64(1.0 / 4096.0) * radii
 }
 
 /// Sum of the absolute coordinates.
-fn size<T: Scalar>(v: Vec3<T>) -> T {
+pub(crate) fn size<T: Scalar>(v: Vec3<T>) -> T {
     let v = v.abs();
     v.x + v.y + v.z
 }

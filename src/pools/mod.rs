@@ -356,6 +356,7 @@ impl<'p, T: Scalar, D: Declared> PoolsMut<'p, T, D> {
             // Known to the compiler, so that there is no code for them.
             source.geometry.stored = Stored::NONE;
         }
+        self.accel.find_clear_lights(&source);
         self.accel.find_candidates(&source);
         // Not compiled for pools without room.
         if D::STAGES.contains(Stages::BVH) {

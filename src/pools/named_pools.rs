@@ -288,6 +288,7 @@ pub struct AccelPools<T, const SIDES: usize, const GRIDS: usize, const BVH: usiz
     grids: Vec<PlaneGrid<T>, GRIDS>,
     nodes: Vec<BvhNode<T>, BVH>,
     entries: Vec<u32, BVH>,
+    lights_are_clear: bool,
 }
 
 impl<T: Scalar, const SIDES: usize, const GRIDS: usize, const BVH: usize>
@@ -300,6 +301,7 @@ impl<T: Scalar, const SIDES: usize, const GRIDS: usize, const BVH: usize>
             grids: Vec::new(),
             nodes: Vec::new(),
             entries: Vec::new(),
+            lights_are_clear: false,
         }
     }
 
@@ -312,6 +314,7 @@ impl<T: Scalar, const SIDES: usize, const GRIDS: usize, const BVH: usize>
                 nodes: &self.nodes,
                 entries: &self.entries,
             },
+            lights_are_clear: self.lights_are_clear,
         }
     }
 
@@ -322,6 +325,7 @@ impl<T: Scalar, const SIDES: usize, const GRIDS: usize, const BVH: usize>
             grids: &mut self.grids,
             nodes: &mut self.nodes,
             entries: &mut self.entries,
+            lights_are_clear: &mut self.lights_are_clear,
         }
     }
 }

@@ -54,15 +54,18 @@ macro_rules! stages_of_scene {
                     i += 1;
                 }
                 let lit = (bright || shines) && objects > 0;
+                let shadows =
+                    lit && casts_shadow && (objects > 1 || !self.geometry.spheres.is_empty());
                 needs
                     .with_if(Stages::LIGHT, lit)
                     .with_if(Stages::SPECULAR, shines && lit)
                     .with_if(Stages::SEVERAL_LIGHTS, lit && self.lights.len() > 1)
                     // A flat object alone has nothing between its lit side and the light; a sphere has
                     // itself, where it is seen from inside.
+                    .with_if(Stages::SHADOWS, shadows)
                     .with_if(
-                        Stages::SHADOWS,
-                        lit && casts_shadow && (objects > 1 || !self.geometry.spheres.is_empty()),
+                        Stages::LIGHT_ON_SURFACE,
+                        shadows && !self.accel.lights_are_clear,
                     )
             }
         }

@@ -1,7 +1,8 @@
 //! Flat discs.
 
 use super::{
-    BoundingSphere, Kind, ObjectInfo, Primitive, Shape, ShapeError, StoredShape, SurfacePoint,
+    BoundingSphere, FlatPlane, Kind, ObjectInfo, Primitive, Shape, ShapeError, StoredShape,
+    SurfacePoint,
 };
 use crate::formula::{self, origin_offset};
 use crate::ray::Ray;
@@ -155,6 +156,14 @@ impl<T: Scalar> Primitive<T> for Disc<T> {
     #[inline(always)]
     fn hit(&self, ray: &Ray<T>, t_max: T) -> Option<T> {
         self.intersect(ray, t_max)
+    }
+
+    fn plane(&self) -> Option<FlatPlane<T>> {
+        Some(FlatPlane {
+            normal: self.normal,
+            height: self.height,
+            offset: self.offset,
+        })
     }
 
     #[inline(always)]

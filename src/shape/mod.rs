@@ -9,6 +9,7 @@
 
 mod disc;
 mod geometry;
+pub(crate) mod light_on_surface;
 mod plane;
 mod quick_reject;
 mod sphere;
@@ -17,6 +18,7 @@ mod triangle;
 
 pub use disc::Disc;
 pub use geometry::Geometry;
+use light_on_surface::FlatPlane;
 pub use plane::Plane;
 pub use sphere::Sphere;
 pub(crate) use stored::StoredShape;
@@ -275,6 +277,21 @@ pub(crate) trait Primitive<T: Scalar>: Copy {
         matches!(self.hit(ray, t_max), Some(t) if t < t_max)
     }
 
+    /// The plane that all of it lies in, if it is flat.
+    fn plane(&self) -> Option<FlatPlane<T>> {
+        None
+    }
+
+    /// Of what is not flat: whether a point inside its bounds is so near to its surface that rounding may decide on which side.
+    fn has_surface_near(&self, _: Vec3<T>) -> bool {
+        true
+    }
+
+    /// [`Primitive::occludes`] for a light there, by its place and its distance.
+    fn occludes_near(&self, ray: &Ray<T>, _light: Vec3<T>, distance: T) -> bool {
+        self.occludes(ray, distance)
+    }
+
     /// The point of a hit, projected back onto the surface.
     fn point(&self, ray: &Ray<T>, t: T) -> SurfacePoint<T>;
 }
@@ -335,6 +352,11 @@ impl<T: Scalar> Object<'_, T> {
             P::IS_FLAT
         }
         of_any_shape!(self, it => is_flat::<T, _>(it))
+    }
+
+    /// Whether a light is so near to its surface that rounding may decide on which side.
+    pub(crate) fn is_near(&self, light: Vec3<T>) -> bool {
+        of_any_shape!(self, it => light_on_surface::is_near(it, light))
     }
 
     /// Whether it has a bounding box.

@@ -1,8 +1,8 @@
 //! Infinite planes.
 
 use super::{
-    BoundingSphere, Geometry, Kind, ListedShape, Object, ObjectInfo, Primitive, Shape, ShapeError,
-    SurfacePoint,
+    BoundingSphere, FlatPlane, Geometry, Kind, ListedShape, Object, ObjectInfo, Primitive, Shape,
+    ShapeError, SurfacePoint,
 };
 use crate::formula;
 use crate::ray::Ray;
@@ -141,6 +141,14 @@ impl<T: Scalar> Primitive<T> for Plane<T> {
     #[inline(always)]
     fn occludes(&self, ray: &Ray<T>, t_max: T) -> bool {
         self.occludes(ray, t_max)
+    }
+
+    fn plane(&self) -> Option<FlatPlane<T>> {
+        Some(FlatPlane {
+            normal: self.normal,
+            height: self.height,
+            offset: T::ZERO,
+        })
     }
 
     #[inline(always)]

@@ -216,6 +216,14 @@ impl<T: Scalar> Primitive<T> for Sphere<T> {
         self.occludes(ray, t_max)
     }
 
+    fn has_surface_near(&self, point: Vec3<T>) -> bool {
+        self.is_surface_near(point)
+    }
+
+    fn occludes_near(&self, ray: &Ray<T>, light: Vec3<T>, distance: T) -> bool {
+        self.occludes_light_near(ray, light, distance)
+    }
+
     #[inline(always)]
     fn point(&self, ray: &Ray<T>, t: T) -> SurfacePoint<T> {
         self.surface_point(ray, t)

@@ -2,8 +2,8 @@
 
 use super::quick_reject::QuickReject;
 use super::{
-    BoundingSphere, Geometry, Kind, ListedShape, Object, ObjectInfo, Primitive, Shape, ShapeError,
-    SurfacePoint, extent,
+    BoundingSphere, FlatPlane, Geometry, Kind, ListedShape, Object, ObjectInfo, Primitive, Shape,
+    ShapeError, SurfacePoint, extent,
 };
 use crate::formula::triangle::{GRAZING, Shear, edge, product_error, project, reach, rise, slack};
 use crate::formula::{origin_offset, sphere::closest_approach};
@@ -294,6 +294,15 @@ impl<T: Scalar> Primitive<T> for Triangle<T> {
     #[inline(always)]
     fn occludes(&self, ray: &Ray<T>, t_max: T) -> bool {
         self.occludes(ray, t_max)
+    }
+
+    fn plane(&self) -> Option<FlatPlane<T>> {
+        let [vertex, ..] = self.vertices;
+        Some(FlatPlane {
+            normal: self.normal,
+            height: self.normal.dot(vertex),
+            offset: self.offset,
+        })
     }
 
     #[inline(always)]

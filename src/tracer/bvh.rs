@@ -3,7 +3,7 @@
 use super::intersect::Closest;
 use super::{Observer, TestKind, Tracer, any_stage, stage};
 use crate::accel::Walk;
-use crate::ray::Ray;
+use crate::ray::{Ray, RayEnd};
 use crate::scalar::Scalar;
 use crate::shape::{self, ListedShape, Primitive, for_each_shape};
 use crate::stages::Stages;
@@ -62,16 +62,16 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
         }
     }
 
-    /// Whether an object that casts a shadow lies on the ray within `0 < t < t_max`.
+    /// Whether an object that casts a shadow lies on the ray before its end.
     #[inline(never)]
     pub(super) fn occluded_in_bvh(
         &self,
         ray: &Ray<T>,
-        t_max: T,
+        end: &RayEnd<T>,
         observer: &mut impl Observer<T>,
     ) -> bool {
         let mut walk = Walk::new(self.scene.accel.bvh, ray);
-        while let Some(leaf) = walk.next_leaf(t_max, || observer.test(TestKind::Box)) {
+        while let Some(leaf) = walk.next_leaf(end.distance, || observer.test(TestKind::Box)) {
             for entry in leaf {
                 let index = *entry as usize;
                 let mut within = index;
@@ -82,8 +82,8 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
                             if <shape::$shape<T> as Primitive<T>>::IS_BOUNDED
                                 && let Some(object) = all.get(within)
                             {
-                                observer.test_object(object.object(), ray, t_max);
-                                if self.is_occluded_by(index, object, ray, t_max) {
+                                observer.test_object(object.object(), ray, end.distance);
+                                if self.is_occluded_by(index, object, ray, end) {
                                     return true;
                                 }
                                 continue;
@@ -95,7 +95,7 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
                 for_each_shape!(occluded_by_bounded);
                 if any_stage(STAGES, Stages::STORED_SHAPES)
                     && let Some(object) = self.scene.geometry.stored.get(within)
-                    && self.is_occluded_by_stored(index, object, ray, t_max, observer)
+                    && self.is_occluded_by_stored(index, object, ray, end, observer)
                 {
                     return true;
                 }
@@ -107,8 +107,8 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
             && (first..)
                 .zip(self.scene.geometry.planes)
                 .any(|(index, plane)| {
-                    observer.test_object(plane.object(), ray, t_max);
-                    self.is_occluded_by(index, plane, ray, t_max)
+                    observer.test_object(plane.object(), ray, end.distance);
+                    self.is_occluded_by(index, plane, ray, end)
                 })
     }
 }

@@ -4,11 +4,12 @@ use super::observer::Observer;
 use super::{Tracer, any_stage, stage};
 use crate::accel::{Cell, Members, ObjectSet};
 use crate::material::Material;
-use crate::ray::Ray;
+use crate::ray::{Ray, RayEnd};
 use crate::scalar::Scalar;
 use crate::shape::{
     self, Geometry, Kind, ListedShape, Object, ObjectInfo, Primitive, Stored, StoredObject,
     StoredShape, SurfacePoint, for_each_shape, for_each_stored_shape,
+    light_on_surface::{is_before, is_near},
 };
 use crate::stages::Stages;
 
@@ -183,15 +184,15 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
         index: usize,
         object: StoredObject<'_, T>,
         ray: &Ray<T>,
-        t_max: T,
+        end: &RayEnd<T>,
         observer: &mut impl Observer<T>,
     ) -> bool {
         macro_rules! of_kind {
             ([$($shape:ident)*]) => {
                 match object.entry.kind {
                     $(Kind::$shape if stage(STAGES, <shape::$shape<T> as Primitive<T>>::STAGE) => {
-                        observer.test_object(Object::Stored(object), ray, t_max);
-                        self.is_occluded_by(index, &<shape::$shape<T>>::of(object), ray, t_max)
+                        observer.test_object(Object::Stored(object), ray, end.distance);
+                        self.is_occluded_by(index, &<shape::$shape<T>>::of(object), ray, end)
                     })*
                     _ => false,
                 }
@@ -203,26 +204,30 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
     /// Whether an object that casts shadows lies on the ray within `0 < t < t_max`.
     pub fn occluded(&self, ray: &Ray<T>, t_max: T) -> bool {
         let all = self.without_flat(ray.leaves.object() as usize, ObjectSet::ALL);
-        self.occluded_observed(ray, t_max, all, &mut ())
+        let end = RayEnd {
+            distance: t_max,
+            light: None,
+        };
+        self.occluded_observed(ray, &end, all, &mut ())
     }
 
     #[inline(always)]
     pub(super) fn occluded_observed(
         &self,
         ray: &Ray<T>,
-        t_max: T,
+        end: &RayEnd<T>,
         candidates: ObjectSet,
         observer: &mut impl Observer<T>,
     ) -> bool {
         if self.has_bvh() {
-            return self.occluded_in_bvh(ray, t_max, observer);
+            return self.occluded_in_bvh(ray, end, observer);
         }
         let mut members = self.members(self.without_left(ray, candidates));
         let mut first = 0;
         macro_rules! occluded_by_each {
             ([$($shape:ident)*]) => {
                 $(
-                    if self.occluded_by::<shape::$shape<T>>(first, &mut members, ray, t_max, observer) {
+                    if self.occluded_by::<shape::$shape<T>>(first, &mut members, ray, end, observer) {
                         return true;
                     }
                     first += shape::$shape::all(&self.scene.geometry).len();
@@ -236,7 +241,7 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
                 first..first + stored.entries.len(),
                 true,
                 |index| stored.get(index.wrapping_sub(first)),
-                |index, object| self.is_occluded_by_stored(index, object, ray, t_max, observer),
+                |index, object| self.is_occluded_by_stored(index, object, ray, end, observer),
             );
         }
         let _ = first;
@@ -250,7 +255,7 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
         first: usize,
         members: &mut Members,
         ray: &Ray<T>,
-        t_max: T,
+        end: &RayEnd<T>,
         observer: &mut impl Observer<T>,
     ) -> bool {
         if !stage(STAGES, P::STAGE) {
@@ -262,8 +267,8 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
             stage(STAGES, P::SEVERAL),
             |index| all.get(index.wrapping_sub(first)),
             |index, object| {
-                observer.test_object(object.object(), ray, t_max);
-                self.is_occluded_by(index, object, ray, t_max)
+                observer.test_object(object.object(), ray, end.distance);
+                self.is_occluded_by(index, object, ray, end)
             },
         )
     }
@@ -316,9 +321,24 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
         index: usize,
         object: &P,
         ray: &Ray<T>,
-        t_max: T,
+        end: &RayEnd<T>,
     ) -> bool {
-        object.occludes(ray, t_max)
+        let near = if stage(STAGES, Stages::LIGHT_ON_SURFACE) && !self.scene.accel.lights_are_clear
+        {
+            end.light.filter(|light| is_near(object, *light))
+        } else {
+            None
+        };
+        let occludes = match near {
+            Some(light) if !P::IS_FLAT => object.occludes_near(ray, light, end.distance),
+            // Whatever the distances are: a flat shape is crossed ahead, and the light lies beyond.
+            _ => {
+                let within = near.map_or(end.distance, |_| T::MAX);
+                object.occludes(ray, within)
+                    && near.is_none_or(|light| is_before(object, light, ray.direction))
+            }
+        };
+        occludes
             && !self.is_left::<P>(ray, index)
             && self
                 .material(object.info())

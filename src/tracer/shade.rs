@@ -5,7 +5,7 @@ use crate::color::Color;
 use crate::formula::shading::{alignment, power, reflected};
 use crate::light::Light;
 use crate::material::Material;
-use crate::ray::Ray;
+use crate::ray::{Ray, RayEnd};
 use crate::real::Real;
 use crate::scalar::Scalar;
 use crate::stages::Stages;
@@ -73,8 +73,12 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
                 direction,
                 leaves: hit.facing,
             };
+            let end = RayEnd {
+                distance,
+                light: Some(light.position),
+            };
             observer.ray(RayKind::Shadow, depth, &shadow);
-            if self.occluded_observed(&shadow, distance, occluders, observer) {
+            if self.occluded_observed(&shadow, &end, occluders, observer) {
                 observer.light(LightAtHit::Blocked);
                 return color;
             }

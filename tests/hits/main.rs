@@ -7,3 +7,4 @@ mod candidates_special_positions;
 #[path = "../common/mod.rs"]
 mod common;
 mod intersections;
+mod thin_triangles;

@@ -9,6 +9,7 @@ mod cutoff;
 mod display_colors;
 mod drivers;
 mod golden;
+mod lights_on_surfaces;
 mod progressive;
 mod rays;
 mod samples;

@@ -235,7 +235,7 @@ fn a_bvh_of_large_leaves_is_left_to_the_core() {
         count: 60,
     };
     let nodes = [BvhNode::new(Vec3::splat(-9.0), Vec3::splat(9.0), all)];
-    let by_leaf = scene.with_accel(Accel::from_parts(&[], &[], &nodes, &entries));
+    let by_leaf = scene.with_accel(Accel::from_parts(&[], &[], &nodes, &entries, true));
     let tracer = Tracer::new(by_leaf).with_bvh().with_stack::<STACK>();
     assert!(PacketTracer::new(tracer).bvh.is_none());
     let resolution = Resolution {
