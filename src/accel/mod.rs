@@ -122,6 +122,16 @@ pub(crate) struct Source<'a, T> {
     pub(crate) materials: &'a [Material<T>],
 }
 
+impl<T: Scalar> Source<'_, T> {
+    /// Whether no light is near a surface.
+    pub(crate) fn are_lights_clear(&self) -> bool {
+        self.lights.iter().all(|light| {
+            let mut objects = self.geometry.objects();
+            objects.all(|object| !object.is_near(light.position))
+        })
+    }
+}
+
 /// Room for what is derived.
 #[doc(hidden)]
 #[derive(Debug)]
@@ -148,10 +158,7 @@ impl<T: Scalar> AccelMut<'_, T> {
 
     /// Finds out whether no light is near a surface.
     pub(crate) fn find_clear_lights(&mut self, source: &Source<'_, T>) {
-        *self.lights_are_clear = source.lights.iter().all(|light| {
-            let mut objects = source.geometry.objects();
-            objects.all(|object| !object.is_near(light.position))
-        });
+        *self.lights_are_clear = source.are_lights_clear();
     }
 
     /// Derives what there is room for: lists of candidates and plane grids.

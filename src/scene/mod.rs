@@ -222,6 +222,11 @@ impl<'a, T: Scalar> Scene<'a, T> {
         self.geometry.object(index)
     }
 
+    /// Whether a light is so near to a surface that rounding may decide on which side of it: shadow rays then take longer.
+    pub fn has_light_on_surface(&self) -> bool {
+        !self.accel.lights_are_clear && !self.source().are_lights_clear()
+    }
+
     /// The objects of all shapes, in the order of the text.
     pub fn objects(&self) -> impl Iterator<Item = Object<'a, T>> + use<'a, T> {
         self.geometry.in_text_order()

@@ -49,8 +49,8 @@ pub(crate) struct PacketTracer<'a, const STACK: usize> {
     shapes: Shapes<'a>,
     /// All objects, in the order of their numbers.
     objects: Vec<Target<'a>>,
-    /// All shapes of the scene have lanes; otherwise the core draws it.
-    is_complete: bool,
+    /// All shapes of the scene have lanes, and no light is on a surface, which lanes do not ask; otherwise the core draws it.
+    has_lanes: bool,
     /// Of a large scene.
     bvh: Option<PacketBvh<'a>>,
     /// Of threads that do not trace at the moment.
@@ -97,7 +97,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
             level: Level::new(),
             shapes: Shapes::default(),
             objects: Vec::with_capacity(scene.object_count()),
-            is_complete: true,
+            has_lanes: !scene.has_light_on_surface(),
             bvh: None,
             idle: Mutex::default(),
         };
@@ -106,7 +106,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
             let material = material(object.info());
             let casts_shadow = material.is_none_or(Material::casts_shadow);
             let Some(object) = LaneObject::of(object) else {
-                packets.is_complete = false;
+                packets.has_lanes = false;
                 break;
             };
             packets.shapes.add(object.clone(), index, casts_shadow);
@@ -119,7 +119,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
                 near: sides.map(Candidates::near_in_any_direction),
             });
         }
-        if packets.is_complete {
+        if packets.has_lanes {
             packets.bvh = PacketBvh::new(&packets, bvh::FEWEST_FOR_SINGLES);
         }
         packets
@@ -130,7 +130,7 @@ impl<'a, const STACK: usize> PacketTracer<'a, STACK> {
         let scene = self.tracer.scene();
         let is_bvh_missing = scene.accel().bvh().is_some()
             && (self.bvh.is_none() || scene.lights().len() > MOST_LIGHTS);
-        if !self.is_complete || is_bvh_missing {
+        if !self.has_lanes || is_bvh_missing {
             return self.row_by_core(places, colors);
         }
         // Not on SSE 4.2, too: each level is compiled for itself, and takes a fifth of the time that building the program takes.

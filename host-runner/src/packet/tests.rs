@@ -393,7 +393,7 @@ fn draws_discs_among_other_shapes_to_the_bit() {
         let scene = pools.as_scene();
         assert_eq!(scene.accel().bvh().is_some(), has_bvh, "{crowd} more");
         let tracer = Tracer::new(scene).with_bvh().with_stack::<STACK>();
-        assert!(PacketTracer::new(tracer).is_complete);
+        assert!(PacketTracer::new(tracer).has_lanes);
         let name = format!("discs, {crowd} more");
         let brute_force = scene.without_accel();
         assert_same_as(&name, scene, brute_force, resolution, 4);
