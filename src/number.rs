@@ -29,6 +29,9 @@ pub trait Number:
     /// Absolute value.
     fn abs(self) -> Self;
 
+    /// `then` where `self` is 0, or else `otherwise`.
+    fn if_zero(self, then: Self, otherwise: Self) -> Self;
+
     /// `2·self`.
     #[inline(always)]
     fn double(self) -> Self {

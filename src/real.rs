@@ -58,6 +58,11 @@ impl<T: Scalar> Number for Real<T> {
     }
 
     #[inline(always)]
+    fn if_zero(self, then: Self, otherwise: Self) -> Self {
+        if self.0.is_zero() { then } else { otherwise }
+    }
+
+    #[inline(always)]
     fn double(self) -> Self {
         Self(self.0.double())
     }

@@ -185,6 +185,15 @@ impl Number for f32 {
     }
 
     #[inline(always)]
+    fn if_zero(self, then: Self, otherwise: Self) -> Self {
+        if Scalar::is_zero(self) {
+            then
+        } else {
+            otherwise
+        }
+    }
+
+    #[inline(always)]
     fn sqrt(self) -> Self {
         if <Self as Scalar>::EMULATED {
             soft_float::square_root(self)
@@ -265,6 +274,15 @@ impl Number for f64 {
     #[inline(always)]
     fn abs(self) -> Self {
         f64::abs(self)
+    }
+
+    #[inline(always)]
+    fn if_zero(self, then: Self, otherwise: Self) -> Self {
+        if Scalar::is_zero(self) {
+            then
+        } else {
+            otherwise
+        }
     }
 
     #[inline(always)]

@@ -75,8 +75,9 @@ fn may_lie_ahead<T: Scalar>(from: Object<'_, T>, octant: Octant, other: Object<'
 /// `along` is false. That holds for the rounded product too, whose terms have one sign.
 fn leads_along<T: Scalar>(octant: Octant, vector: Vec3<T>, along: bool) -> bool {
     let vector = if along { vector } else { -vector };
-    let outside = outside_part(octant, vector);
-    outside.dot(outside) == T::ZERO
+    let Vec3 { x, y, z } = outside_part(octant, vector);
+    // Each for itself: the square of what is all but 0 may be 0.
+    x == T::ZERO && y == T::ZERO && z == T::ZERO
 }
 
 /// The vector from the nearest point of an octant to a point.

@@ -37,9 +37,14 @@ pub fn crossings<N: Number>(middle: N, half_chord_squared: N) -> (N, N) {
 }
 
 /// The point of a sphere that is nearest to a place, and the outward normal there: a hit far from the camera may be wrong along
-/// the ray by more than the radius.
+/// the ray by more than the radius. If it is in the centre itself, which has no way outward, that is the sphere's highest point.
 #[inline(always)]
 pub fn project<N: Number>(place: Vec3<N>, center: Vec3<N>, radius: N) -> (Vec3<N>, Vec3<N>) {
-    let normal = (place - center).normalize();
+    let outward = place - center;
+    let square = outward.dot(outward);
+    let one = square.constant(1.0);
+    let up = square.if_zero(one, outward.y);
+    let inverse = one / square.if_zero(one, square).sqrt();
+    let normal = Vec3::new(outward.x, up, outward.z) * inverse;
     (center + normal * radius, normal)
 }

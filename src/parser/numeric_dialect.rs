@@ -67,11 +67,7 @@ pub(super) fn read<T: Scalar + FromDecimal, D: Declared>(
     }
 
     records.begin();
-    pools.set_ambient(
-        records
-            .number("ambient intensity", Range::NotNegative)?
-            .value,
-    );
+    pools.set_ambient(records.number("ambient intensity", Range::Intensity)?.value);
     records.end()?;
 
     records.begin();
@@ -80,11 +76,14 @@ pub(super) fn read<T: Scalar + FromDecimal, D: Declared>(
 
     records.begin();
     pools.set_background(Background {
-        color: records.color([
-            "red of the background colour",
-            "green of the background colour",
-            "blue of the background colour",
-        ])?,
+        color: records.color(
+            [
+                "red of the background colour",
+                "green of the background colour",
+                "blue of the background colour",
+            ],
+            Range::Intensity,
+        )?,
         sky,
     });
     records.end()?;
@@ -110,19 +109,22 @@ fn read_light<T: Scalar + FromDecimal>(
     report: &mut Report,
 ) -> Result<Light<T>, ParseError> {
     let position = records.vector(["light position x", "light position y", "light position z"])?;
-    let specular = records.color([
-        "red of the light's specular intensity",
-        "green of the light's specular intensity",
-        "blue of the light's specular intensity",
-    ])?;
-    let red = records.number("red of the light's diffuse intensity", Range::NotNegative)?;
-    let green = records.number("green of the light's diffuse intensity", Range::NotNegative)?;
+    let specular = records.color(
+        [
+            "red of the light's specular intensity",
+            "green of the light's specular intensity",
+            "blue of the light's specular intensity",
+        ],
+        Range::Intensity,
+    )?;
+    let red = records.number("red of the light's diffuse intensity", Range::Intensity)?;
+    let green = records.number("green of the light's diffuse intensity", Range::Intensity)?;
     // The published example gives 8 numbers here.
     let blue = if records.is_at_end() {
         report.short_light_line = Some(records.place().0);
         green
     } else {
-        records.number("blue of the light's diffuse intensity", Range::NotNegative)?
+        records.number("blue of the light's diffuse intensity", Range::Intensity)?
     };
     Ok(Light {
         position,
@@ -218,6 +220,9 @@ fn read_object<T: Scalar + FromDecimal, D: Declared>(
         Err(SceneError::LeftOut { stage }) => {
             Err(records.unfit("material", Range::Without(stage), geometry))
         }
+        Err(SceneError::Shape(ShapeError::TooSmall | ShapeError::TooLarge)) => {
+            Err(records.unfit("triangle", Range::TriangleSize(T::NAME), geometry))
+        }
         Err(_) => Err(records.unfit("triangle", Range::TriangleWithArea, geometry)),
     }
 }
@@ -232,25 +237,34 @@ fn read_material<T: Scalar + FromDecimal, D: Declared>(
         }
         Ok(())
     };
-    let diffuse = records.color([
-        "red diffuse colour",
-        "green diffuse colour",
-        "blue diffuse colour",
-    ])?;
+    let diffuse = records.color(
+        [
+            "red diffuse colour",
+            "green diffuse colour",
+            "blue diffuse colour",
+        ],
+        Range::Share,
+    )?;
     let word = records.peek_word();
-    let specular: Color<T> = records.color([
-        "red specular colour",
-        "green specular colour",
-        "blue specular colour",
-    ])?;
+    let specular: Color<T> = records.color(
+        [
+            "red specular colour",
+            "green specular colour",
+            "blue specular colour",
+        ],
+        Range::Share,
+    )?;
     let shines = !specular.is_black();
     fits(records, "specular colour", shines, Stages::SPECULAR, word)?;
-    let ambient = records.color([
-        "red ambient colour",
-        "green ambient colour",
-        "blue ambient colour",
-    ])?;
-    let reflection: Number<'_, T> = records.number("reflection", Range::NotNegative)?;
+    let ambient = records.color(
+        [
+            "red ambient colour",
+            "green ambient colour",
+            "blue ambient colour",
+        ],
+        Range::Share,
+    )?;
+    let reflection: Number<'_, T> = records.number("reflection", Range::Share)?;
     let reflects = reflection.value > T::ZERO;
     fits(
         records,
@@ -260,7 +274,7 @@ fn read_material<T: Scalar + FromDecimal, D: Declared>(
         reflection.word,
     )?;
     let shininess = records.number("shininess", Range::NotNegative)?.value;
-    let refraction: Number<'_, T> = records.number("refraction", Range::NotNegative)?;
+    let refraction: Number<'_, T> = records.number("refraction", Range::Share)?;
     let refracts = refraction.value > T::ZERO;
     fits(
         records,
@@ -278,7 +292,8 @@ fn read_material<T: Scalar + FromDecimal, D: Declared>(
         Stages::BENDING,
         index.word,
     )?;
-    if refracts && index.value == T::ZERO {
+    let [lowest, highest] = Range::INDEX.map(|end| T::from_f64(end.into()));
+    if refracts && !(lowest <= index.value && index.value <= highest) {
         return Err(records.unfit("index of refraction", Range::RefractiveIndex, index.word));
     }
     Ok(MaterialDescription {
@@ -365,8 +380,7 @@ impl<'t> Records<'t> {
         place(self.text, self.behind)
     }
 
-    /// A finite number of a range that is not stricter than [`Range::NotNegative`]; stricter ones are
-    /// the caller's to check.
+    /// A finite number of a range that begins at 0, or of one that is the caller's to check.
     fn number<T: Scalar + FromDecimal>(
         &mut self,
         name: &'static str,
@@ -377,10 +391,12 @@ impl<'t> Records<'t> {
             return Err(self.error_behind(expected));
         };
         match T::from_decimal(word) {
-            Ok(value) if range == Range::NotNegative && value < T::ZERO => {
-                Err(self.unfit(name, range, word))
-            }
-            Ok(value) => Ok(Number { value, word }),
+            Ok(value) => match range.largest() {
+                Some(largest) if !(T::ZERO <= value && value <= T::from_f64(largest.into())) => {
+                    Err(self.unfit(name, range, word))
+                }
+                _ => Ok(Number { value, word }),
+            },
             Err(DecimalError::NotANumber) => Err(self.unfit(name, range, word)),
             Err(DecimalError::TooLarge) => {
                 Err(self.error_at(word, expected, Found::TooLarge(Excerpt::new(word), T::NAME)))
@@ -402,11 +418,12 @@ impl<'t> Records<'t> {
     fn color<T: Scalar + FromDecimal>(
         &mut self,
         [r, g, b]: [&'static str; 3],
+        range: Range,
     ) -> Result<Color<T>, ParseError> {
         Ok(Color::new(
-            self.number(r, Range::NotNegative)?.value,
-            self.number(g, Range::NotNegative)?.value,
-            self.number(b, Range::NotNegative)?.value,
+            self.number(r, range)?.value,
+            self.number(g, range)?.value,
+            self.number(b, range)?.value,
         ))
     }
 

@@ -404,8 +404,10 @@ pub enum ShapeError {
     DistanceTooLarge,
     /// The triangle's vertices lie on a line, as nearly as the scalar can tell.
     NoArea,
-    /// The triangle's edges are infinitely long in this scalar.
-    EdgeTooLong,
+    /// The triangle is so small that products of its sides lose digits ([`Triangle::smallest`]).
+    TooSmall,
+    /// A coordinate is so large that products are infinite ([`Triangle::largest`]).
+    TooLarge,
 }
 
 impl fmt::Display for ShapeError {
@@ -418,7 +420,10 @@ impl fmt::Display for ShapeError {
                 "a plane's distance divided by the length of its normal must be finite"
             }
             Self::NoArea => "a triangle must have an area",
-            Self::EdgeTooLong => "a triangle's edges must have a finite length",
+            Self::TooSmall => {
+                "a triangle must not be so small that products of its sides lose digits"
+            }
+            Self::TooLarge => "a triangle's coordinates must have finite products",
         })
     }
 }

@@ -16,9 +16,8 @@ use crate::vec3::Vec3;
 /// A triangle, seen from both sides.
 ///
 /// Invariants: `normal = normalize((v3 − v1) × (v2 − v1))`; the sphere around `bounds_center` holds the
-/// three vertices with room for the rounding of its own construction, or has the square radius −1, so that
-/// no ray hits a triangle whose squares lose digits (smaller than 1e-19 in `f32`); `offset` is an upper bound of
-/// the origin offset anywhere on the surface.
+/// three vertices with room for the rounding of its own construction; `offset` is an upper bound of the origin offset anywhere
+/// on the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triangle<T = f32> {
     bounds_center: Vec3<T>,
@@ -35,13 +34,12 @@ impl<T: Scalar> Triangle<T> {
     /// # Errors
     ///
     /// [`ShapeError::NoArea`] when two edges enclose an angle whose sine is below four units of
-    /// rounding, [`ShapeError::EdgeTooLong`].
+    /// rounding, [`ShapeError::TooLarge`], [`ShapeError::TooSmall`].
     pub fn new(vertices: [Vec3<T>; 3], info: ObjectInfo) -> Result<Self, ShapeError> {
         let [v1, v2, v3] = vertices;
-        for edge in [v2 - v1, v3 - v1, v3 - v2] {
-            if !edge.is_finite() {
-                return Err(ShapeError::EdgeTooLong);
-            }
+        let extent = extent(v1).max(extent(v2)).max(extent(v3));
+        if !(vertices.iter().all(|vertex| vertex.is_finite()) && extent <= Self::largest()) {
+            return Err(ShapeError::TooLarge);
         }
         // Unit edges: the product of their directions neither under- nor overflows, and its length is
         // the sine of the angle between them.
@@ -53,14 +51,11 @@ impl<T: Scalar> Triangle<T> {
         if !(sine > T::TWO * T::TWO * T::EPSILON) {
             return Err(ShapeError::NoArea);
         }
-        let (bounds_center, square) = bounds_of(vertices);
-        let bounds_radius_squared = if square < T::MIN_POSITIVE {
-            -T::ONE
-        } else {
-            square
-        };
+        let (bounds_center, bounds_radius_squared) = bounds_of(vertices);
+        if bounds_radius_squared < Self::smallest() * Self::smallest() {
+            return Err(ShapeError::TooSmall);
+        }
         // Σ|nᵢPᵢ| ≤ √3·extent < 2·extent.
-        let extent = extent(v1).max(extent(v2)).max(extent(v3));
         Ok(Self::from_parts(
             vertices,
             normal,
@@ -69,6 +64,23 @@ impl<T: Scalar> Triangle<T> {
             origin_offset(T::TWO * extent, extent),
             info,
         ))
+    }
+
+    /// The largest coordinate of a vertex, either way: 2⁶⁰ = 1.2e18 in `f32`, 2⁵⁰⁸ in `f64`. With rays that start as far away the
+    /// edge functions, sums of products of two numbers sixteen times that size, are finite.
+    pub fn largest() -> T {
+        T::ONE / (T::SMALLEST_TO_SQUARE * T::from_i32(8))
+    }
+
+    /// The smallest radius of a triangle's bounding sphere: 2⁻⁵¹ = 4.4e-16 in `f32`, 2⁻⁴⁸⁵ in `f64`. The edge functions of smaller ones
+    /// lose digits, and their errors are 0.
+    pub fn smallest() -> T {
+        T::SMALLEST_TO_SQUARE
+            * T::from_f64(if T::EPSILON > T::from_f64(1e-10) {
+                4096.0
+            } else {
+                67_108_864.0
+            })
     }
 
     /// A triangle from values that [`Triangle::new`] has computed: for baked scenes.
@@ -105,7 +117,7 @@ impl<T: Scalar> Triangle<T> {
         self.bounds_center
     }
 
-    /// Square of the radius of the bounding sphere, rounded up; −1 if no ray is to hit the triangle.
+    /// Square of the radius of the bounding sphere, rounded up.
     pub const fn bounds_radius_squared(&self) -> T {
         self.bounds_radius_squared
     }
@@ -270,12 +282,10 @@ impl<T: Scalar> Primitive<T> for Triangle<T> {
         self.info.material = material;
     }
 
-    /// `None` also of a triangle so large that the square of the radius is no number.
     fn bounding_sphere(&self) -> Option<BoundingSphere<T>> {
-        let square = self.bounds_radius_squared;
-        (square < T::MAX).then(|| BoundingSphere {
+        Some(BoundingSphere {
             center: self.bounds_center,
-            radius: square.sqrt(),
+            radius: self.bounds_radius_squared.sqrt(),
         })
     }
 

@@ -367,6 +367,7 @@ impl<'a, T: Scalar, const STAGES: u64, const STACK: usize> Tracer<'a, T, STAGES,
                     return color;
                 };
                 color = frame.color + color * frame.weight.abs();
+                observer.sum(color);
                 is_sum = true;
                 refracts = frame.weight.is_negative();
             }

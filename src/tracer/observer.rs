@@ -115,6 +115,12 @@ pub trait Observer<T> {
         let _ = color;
     }
 
+    /// The colour of an intersection with the shares of the secondary rays that are done, not clamped.
+    #[inline(always)]
+    fn sum(&mut self, color: Color<T>) {
+        let _ = color;
+    }
+
     /// The deepest ray under way sees this colour, and is done; its secondary rays were done before.
     #[inline(always)]
     fn result(&mut self, color: Color<T>) {

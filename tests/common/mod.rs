@@ -8,6 +8,7 @@ pub(crate) mod canvas;
 pub(crate) mod picture;
 pub(crate) mod quick_reject;
 pub(crate) mod random;
+pub(crate) mod random_texts;
 #[path = "settled.rs"]
 pub(crate) mod sampling;
 pub(crate) mod scenes;

@@ -6,5 +6,7 @@ mod candidates;
 mod candidates_special_positions;
 #[path = "../common/mod.rs"]
 mod common;
+mod exclusions;
 mod intersections;
 mod thin_triangles;
+mod triangle_sizes;

@@ -8,6 +8,7 @@ mod common;
 mod cutoff;
 mod display_colors;
 mod drivers;
+mod finite_colors;
 mod golden;
 mod lights_on_surfaces;
 mod progressive;

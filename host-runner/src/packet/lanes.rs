@@ -73,6 +73,11 @@ impl<S: Simd> Number for Numbers<S> {
     fn abs(self) -> Self {
         Self(self.0.abs())
     }
+
+    #[inline(always)]
+    fn if_zero(self, then: Self, otherwise: Self) -> Self {
+        Self::select(self.simd_eq(0.0), then, otherwise)
+    }
 }
 
 /// What numbers are compared with: a number for each lane, or one for all.

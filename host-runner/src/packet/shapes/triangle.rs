@@ -2,8 +2,8 @@
 
 use fearless_simd::prelude::*;
 use scanray::formula::sphere::closest_approach;
-use scanray::number::Number;
 use scanray::formula::triangle::{GRAZING, Shear, edge, product_error, project, reach, rise};
+use scanray::number::Number;
 use scanray::shape::Triangle;
 use scanray::{Vec3, shape::Object};
 
