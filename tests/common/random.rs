@@ -47,6 +47,19 @@ impl Random {
         })
     }
 
+    /// How many rounds a long test takes: what the environment variable `SCENES` says, or else the default.
+    ///
+    /// # Panics
+    ///
+    /// When it says no number.
+    pub fn count(default: usize) -> usize {
+        std::env::var("SCENES").map_or(default, |word| {
+            word.parse().unwrap_or_else(|_| {
+                panic!("SCENES is `{word}`: give it a whole number, or unset it")
+            })
+        })
+    }
+
     /// The generator of a seed.
     pub fn seeded(seed: u64) -> Self {
         Self(Cell::new(seed))

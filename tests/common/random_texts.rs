@@ -25,14 +25,14 @@ const EXTREME: [&str; 18] = [
 ];
 
 /// A random scene text, of ordinary numbers or with extreme ones among them.
-pub(crate) struct Writer<'r> {
-    pub(crate) random: &'r Random,
+pub struct Writer<'r> {
+    pub random: &'r Random,
     /// One number in so many is extreme; none if it is 0.
-    pub(crate) extreme: usize,
+    pub extreme: usize,
     /// Coordinates are up to this large.
-    pub(crate) scale: f64,
+    pub scale: f64,
     /// Shapes lie along the axes, all but along them, touch each other and have extreme ratios.
-    pub(crate) aimed: bool,
+    pub aimed: bool,
 }
 
 impl Writer<'_> {
@@ -144,13 +144,33 @@ impl Writer<'_> {
         format!("{shape} {}", self.material())
     }
 
-    pub(crate) fn scene(&self) -> String {
-        let count = 1 + self.random.below(5);
+    /// A scene of up to five objects, some of which may be none.
+    pub fn scene(&self) -> String {
         let camera = self.numbers(3);
-        let objects: Vec<_> = (0..count).map(|_| self.object(&camera)).collect();
+        let objects: Vec<_> = (0..=self.random.below(5))
+            .map(|_| self.object(&camera))
+            .collect();
+        self.scene_of(&camera, &objects)
+    }
+
+    /// A scene of so many objects, that are accepted by a parser.
+    pub fn crowd(&self, count: usize, is_scene: impl Fn(&str) -> bool) -> String {
+        let camera = self.steps(3);
+        let mut objects = Vec::with_capacity(count);
+        while objects.len() < count {
+            let object = self.object(&camera);
+            if is_scene(&self.scene_of(&camera, std::slice::from_ref(&object))) {
+                objects.push(object);
+            }
+        }
+        self.scene_of(&camera, &objects)
+    }
+
+    fn scene_of(&self, camera: &str, objects: &[String]) -> String {
         format!(
-            "{count}\n{camera}\n4 3\n{} {}\n{}\n{}\n{}\n{}\n",
-            self.numbers(3),
+            "{}\n{camera}\n4 3\n{} {}\n{}\n{}\n{}\n{}\n",
+            objects.len(),
+            self.steps(3),
             self.positives(6, 2.0),
             self.positive(1.0),
             self.random.below(2),

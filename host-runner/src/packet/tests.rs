@@ -10,12 +10,27 @@ use scanray::{
     Tracer, Vec3, camera::Subpixel, render::Supersampled, shape::Shape,
 };
 
+use random::Random as Numbers;
+use random_texts::Writer;
+
 use super::PacketTracer;
 use super::bvh::PacketBvh;
 use crate::host_tracer::SampleRow;
 
+// Those of the core's tests.
+#[allow(dead_code, unreachable_pub)]
+#[path = "../../../tests/common/random.rs"]
+mod random;
+#[allow(unreachable_pub)]
+#[path = "../../../tests/common/random_texts.rs"]
+mod random_texts;
+
 scanray::scene_pools! {
     struct Pools { spheres: 64, planes: 64, triangles: 64, discs: 64, materials: 256, lights: 4 }
+}
+
+scanray::scene_pools! {
+    struct One { spheres: 1, planes: 1, triangles: 1, materials: 1, lights: 1 }
 }
 
 /// That of the host, so that everything is compiled once.
@@ -254,6 +269,55 @@ fn draws_random_scenes_with_a_bvh_to_the_bit() {
         hierarchies > scenes / 2,
         "only {hierarchies} of {scenes} have a bvh"
     );
+}
+
+/// Scenes of texts that are aimed at what is hard: shapes along the axes and all but along them, that touch, of extreme ratios,
+/// a few objects or so many that there is a hierarchy.
+fn draws_random_texts(seed: u64, texts: usize, is_crowd: bool) {
+    let numbers = Numbers::of_test(seed);
+    let mut pools = Box::new(Pools::new());
+    let (mut scenes, mut in_lanes, mut with_bvh) = (0, 0, 0);
+    for round in 0..texts {
+        let writer = Writer {
+            random: &numbers,
+            extreme: [0, 0, 20, 5][round % 4],
+            scale: numbers.log_between(1e-2, 1e3),
+            aimed: round % 3 > 0,
+        };
+        let text = if is_crowd {
+            let is_scene = |text: &str| One::new().parse(text.as_bytes()).is_ok();
+            writer.crowd(60 + numbers.below(60), is_scene)
+        } else {
+            writer.scene()
+        };
+        if pools.parse(text.as_bytes()).is_err() {
+            continue;
+        }
+        scenes += 1;
+        let scene = pools.as_scene();
+        in_lanes += usize::from(!scene.has_light_on_surface());
+        with_bvh += usize::from(scene.accel().bvh().is_some());
+        let resolution = Resolution {
+            width: 9,
+            height: 2,
+        };
+        assert_same_as(&text, scene, scene.without_accel(), resolution, 4);
+    }
+    println!("{scenes} scenes, {in_lanes} in lanes, {with_bvh} with a hierarchy");
+    assert!(in_lanes > 10 && (with_bvh > scenes / 2) == is_crowd);
+}
+
+#[test]
+fn draws_random_texts_to_the_bit() {
+    draws_random_texts(198, 1500, false);
+    draws_random_texts(200, 60, true);
+}
+
+#[test]
+#[ignore = "takes long: .ci/run runs it"]
+fn draws_many_random_texts_to_the_bit() {
+    draws_random_texts(199, 20_000, false);
+    draws_random_texts(201, 1000, true);
 }
 
 #[test]
