@@ -36,8 +36,10 @@ use heapless::VecView;
 use crate::light::Light;
 use crate::material::Material;
 use crate::scalar::Scalar;
-use crate::shape::{Geometry, Object};
-use crate::vec3::Vec3;
+use crate::shape::{
+    Geometry, Object,
+    margin::{margin, size},
+};
 
 /// What is derived from a scene, so that rays need not be tested against all of it. Without any of it the picture has the same
 /// bits.
@@ -202,17 +204,6 @@ impl<T: Scalar> AccelMut<'_, T> {
         }
         bvh::build(geometry, self.entries, self.nodes);
     }
-}
-
-/// What keeps an exclusion safe from rounding, for the lengths and coordinates and the radii involved.
-pub(crate) fn margin<T: Scalar>(lengths: T, radii: T) -> T {
-    T::from_f64(1.0 / 65_536.0) * lengths + T::from_f64(1.0 / 4096.0) * radii
-}
-
-/// Sum of the absolute coordinates.
-pub(crate) fn size<T: Scalar>(v: Vec3<T>) -> T {
-    let v = v.abs();
-    v.x + v.y + v.z
 }
 
 /// The set of the objects for which something holds.

@@ -4,8 +4,8 @@
 //! surface, and not by the distance along each ray, whose rounding grows with the ray's length and its slant. Lights that are near
 //! no surface, as nearly all are, cost nothing: what is derived from a scene says so ([`Accel`](crate::accel::Accel)).
 
+use super::margin::{margin, size};
 use super::{BoundingSphere, Primitive, Sphere};
-use crate::accel::{margin, size};
 use crate::formula::{self, sphere::closest_approach};
 use crate::ray::Ray;
 use crate::real::Real;

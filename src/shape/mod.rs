@@ -10,6 +10,7 @@
 mod disc;
 mod geometry;
 pub(crate) mod light_on_surface;
+pub(crate) mod margin;
 mod plane;
 mod quick_reject;
 mod sphere;

@@ -55,13 +55,16 @@ impl<T: Scalar> Triangle<T> {
         if bounds_radius_squared < Self::smallest() * Self::smallest() {
             return Err(ShapeError::TooSmall);
         }
-        // Σ|nᵢPᵢ| ≤ √3·extent < 2·extent.
+        // Σ|nᵢPᵢ| is largest in a corner. The normal is off by some units of rounding, which tilts the plane about the first.
+        let across = normal.abs();
+        let [c1, c2, c3] = vertices.map(|vertex| across.dot(vertex.abs()));
+        let size = super::extent(v2 - v1).max(super::extent(v3 - v1));
         Ok(Self::from_parts(
             vertices,
             normal,
             bounds_center,
             bounds_radius_squared,
-            origin_offset(T::TWO * extent, extent),
+            origin_offset(c1.max(c2).max(c3), size),
             info,
         ))
     }
