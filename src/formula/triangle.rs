@@ -67,6 +67,12 @@ pub fn product_error<N: Number>(a: N, b: N) -> N {
     ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
 }
 
+/// `a·b − c·d` without cancellation: what rounding took from the products is put back (Kahan's algorithm with Dekker's product).
+#[inline(always)]
+pub fn difference_of_products<N: Number>(a: N, b: N, c: N, d: N) -> N {
+    (a * b - c * d) + (product_error(a, b) - product_error(c, d))
+}
+
 /// The upper and the lower half of a number.
 #[inline(always)]
 fn split<N: Number>(x: N) -> (N, N) {

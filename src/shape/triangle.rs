@@ -5,7 +5,9 @@ use super::{
     BoundingSphere, FlatPlane, Geometry, Kind, ListedShape, Object, ObjectInfo, Primitive, Shape,
     ShapeError, SurfacePoint, extent,
 };
-use crate::formula::triangle::{GRAZING, Shear, edge, product_error, project, reach, rise, slack};
+use crate::formula::triangle::{
+    GRAZING, Shear, difference_of_products, edge, product_error, project, reach, rise, slack,
+};
 use crate::formula::{origin_offset, sphere::closest_approach};
 use crate::ray::Ray;
 use crate::real::Real;
@@ -45,7 +47,7 @@ impl<T: Scalar> Triangle<T> {
         // the sine of the angle between them.
         let (to_v2, _) = (v2 - v1).try_normalize().ok_or(ShapeError::NoArea)?;
         let (to_v3, _) = (v3 - v1).try_normalize().ok_or(ShapeError::NoArea)?;
-        let across = to_v3.cross(to_v2);
+        let across = precise_cross(to_v3, to_v2);
         let (normal, [largest, length]) = across.try_normalize().ok_or(ShapeError::NoArea)?;
         let sine = largest * length;
         if !(sine > T::TWO * T::TWO * T::EPSILON) {
@@ -381,6 +383,20 @@ impl Turn {
             Self::YToZ => Vec3::new(v.z, v.x, v.y),
         }
     }
+}
+
+/// A vector product whose components are off by their own rounding alone. Of a long thin triangle it is short, and what
+/// products lose would tilt its normal along its length.
+fn precise_cross<T: Scalar>(a: Vec3<T>, b: Vec3<T>) -> Vec3<T> {
+    #[inline(never)]
+    fn component<T: Scalar>(a: T, b: T, c: T, d: T) -> T {
+        difference_of_products(a, b, c, d)
+    }
+    Vec3::new(
+        component(a.y, b.z, a.z, b.y),
+        component(a.z, b.x, a.x, b.z),
+        component(a.x, b.y, a.y, b.x),
+    )
 }
 
 /// The edge function with the right sign.

@@ -22,7 +22,7 @@ use scanray_host::output_files::Place;
 /// The command line.
 #[derive(Args, Debug)]
 #[command(after_help = "\
-Without options, all 70 cases are measured, one of them on every scene at 800x600, which takes a minute or so.
+Without options, all 73 cases are measured, one of them on every scene at 800x600, which takes a minute or so.
 
 Examples:
   scanray-lab stability 26 44                  two of the cases
@@ -36,7 +36,7 @@ Figures of random numbers name their seed. The environment variable SEED, a whol
 Exit codes: 1 a figure exceeds its bound.")]
 pub(crate) struct StabilityArgs {
     /// Numbers of cases; all if there are none
-    #[arg(value_name = "CASE", value_parser = whole::<u8>(1..=70), allow_negative_numbers = true)]
+    #[arg(value_name = "CASE", value_parser = whole::<u8>(1..=73), allow_negative_numbers = true)]
     cases: Vec<u8>,
 
     /// Compare the scenes at 160x120 instead of 800x600

@@ -1,4 +1,4 @@
-//! Cases 1 to 28 and 70: rays and shapes.
+//! Cases 1 to 28, 70, 71 and 73: rays and shapes.
 
 use scanray::shape::{Disc, ObjectInfo, Plane, Sphere, Triangle};
 use scanray::{MaterialDescription, Ray, Scalar, ScenePools, Tracer, Vec3, shape::Object};
@@ -41,6 +41,8 @@ cases! { Geometry:
     27 mesh_scaled_by_powers_of_two: "the same hits";
     28 coincident_objects: "of different shapes the first kind is seen (sphere, plane, triangle, disc), within a kind the first in the text, whatever the order";
     70 rim_of_a_disc: "rays at 0.9 to 1.1 radii, at cosines down to 1e-2: 0 misclassified outside a band of 1e-3 of the radius";
+    71 long_thin_triangles: "1 to 10,000 times as long as high: no holes, and never before what hangs in front of them by 64u of their length";
+    73 hit_in_the_centre_of_a_sphere: "its colours are finite, and it shows its own";
 }
 
 /// Rays of a statistical case.
@@ -895,6 +897,48 @@ fn mesh_scaled_by_powers_of_two<T: Number>(record: &mut Record) {
     }
     record.holds("rays hit", hits >= rays);
     record.count("rays with another hit or t", different, rays);
+}
+
+fn long_thin_triangles<T: Number>(record: &mut Record) {
+    let random = record.random(171);
+    let (mut holes, mut behind, mut rays) = (0, 0, 0);
+    for _ in 0..RAYS {
+        let half = random.log_between(1e-3, 1e3);
+        let length = half * random.log_between(1.0, 1e4);
+        let along: Vec3<f64> = random.direction();
+        let across = along.cross(random.direction()).normalize();
+        let toward = along.cross(across);
+        let place = random.direction::<f64>() * half;
+        // Two triangles of a wall, and a patch in front of it.
+        let corner =
+            |a: f64, b: f64| rounded::<T>(place + along * (a * length) + across * (b * half));
+        let wall = [
+            [corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, 1.0)],
+            [corner(-1.0, -1.0), corner(1.0, 1.0), corner(1.0, -1.0)],
+        ]
+        .map(|vertices| Triangle::new(vertices, SURFACE).expect("a wall"));
+        // Where a slanted ray that passes the patch still comes to the wall.
+        let (a, b) = (random.between(-0.6, 0.6), random.between(-0.6, 0.6));
+        let aimed = place + along * (a * half) + across * (b * half);
+        let gap = 64.0 * unit::<T>() * (length + half);
+        let patch = [(-1.0, -1.0), (1.0, -1.0), (0.0, 2.0)].map(|(a, b)| {
+            rounded::<T>(aimed + toward * gap + (along * a + across * b) * (0.1 * half))
+        });
+        let Ok(patch) = Triangle::new(patch, SURFACE) else {
+            continue;
+        };
+        let cosine = random.between(0.3, 1.0);
+        let sideways = toward.cross(random.direction()).normalize();
+        let from = toward * cosine + sideways * (1.0 - cosine * cosine).sqrt();
+        let origin = rounded::<T>(aimed + from * (half * random.between(1.0, 10.0)));
+        let ray = ray_to(origin, aimed + toward * gap);
+        rays += 1;
+        let distance = wall.iter().filter_map(|wall| wall.intersect(&ray, T::MAX));
+        let nearest = distance.reduce(|a, b| if a < b { a } else { b });
+        let in_front = patch.intersect(&ray, T::MAX);
+    }
+    record.count("colours that are none", none, rays);
+    record.count("rays that do not see the sphere", without, rays);
 }
 
 fn rim_of_a_disc<T: Number>(record: &mut Record) {

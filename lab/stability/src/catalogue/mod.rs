@@ -1,4 +1,4 @@
-//! The catalogue: 70 numbered cases, what is expected of each, and what is measured.
+//! The catalogue: 73 numbered cases, what is expected of each, and what is measured.
 //!
 //! In every case: no channel is other than finite and in 0…1 before quantisation, nothing panics, no pixel
 //! takes more rays than the tracer promises; with the cut-off of 8 bits no pixel is brighter, and none more
@@ -39,7 +39,7 @@ pub enum Group {
 /// A case of the catalogue.
 #[derive(Clone, Copy)]
 pub struct Case {
-    /// Its number, from 1 to 70.
+    /// Its number, from 1 to 73.
     pub number: u8,
     /// Its name, in words joined by `_`.
     pub name: &'static str,

@@ -38,6 +38,7 @@ cases! { Shading:
     49 index_of_refraction_zero_negative_or_nan: "rejected where there is refraction";
     50 shininess: "0 gives 1, powers are monotone and off by at most 0.02/255";
     51 ends_of_the_phong_base: "0, 1 and the number below 1";
+    72 light_next_to_a_surface: "on a ceiling, a wall of triangles and a sphere, and 1e-7 to 1e-3 before and behind them: all of the floor is lit or none, and all of it on the surface";
     52 reflection_and_refraction_above_1: "clamped at each level";
 }
 
@@ -330,6 +331,66 @@ fn light_on_a_surface<T: Number>(record: &mut Record) {
     ] {
         let pools = room(vector::<T>(x, y, z)).build();
         record.draw(&Tracer::new(pools.as_scene()));
+    }
+}
+
+fn light_next_to_a_surface<T: Number>(record: &mut Record) {
+    let corner = |x: f64, z: f64| vector::<T>(x, 2.0, z);
+    let triangle = |corners| Part {
+        shape: Shape::Triangle(corners),
+        material: detector(),
+    };
+    let ceilings = [
+        (
+            "plane",
+            vec![plane(vector(0.0, -1.0, 0.0), 2.0, detector())],
+        ),
+        (
+            "triangles",
+            vec![
+                triangle([
+                    corner(-99.0, -99.0),
+                    corner(99.0, -99.0),
+                    corner(99.0, 99.0),
+                ]),
+                triangle([
+                    corner(-99.0, -99.0),
+                    corner(99.0, 99.0),
+                    corner(-99.0, 99.0),
+                ]),
+            ],
+        ),
+        (
+            "sphere",
+            vec![sphere(vector(0.3, 2.5, 2.7), T::HALF, detector())],
+        ),
+    ];
+    for (what, ceiling) in ceilings {
+        let (mut uneven, mut dark_below) = (0, 0);
+        let outside = [0.0, 1e-7, 1e-6, 3e-6, 1e-5, 1e-4, 1e-3];
+        for above in outside.iter().flat_map(|above| [-above, *above]) {
+            let mut model = dark::<T>();
+            model.lights = vec![light(vector(0.3, 2.0 + above, 2.7), 1.0, 0.0)];
+            model.parts = ceiling.clone();
+            model
+                .parts
+                .push(plane(vector(0.0, 1.0, 0.0), 1.0, detector()));
+            let pools = model.build();
+            let colors = record.draw(&Tracer::new(pools.as_scene()));
+            // The floor alone, as far as the triangles go.
+            let floor = &colors[colors.len() * 11 / 20..];
+            let dark = floor.iter().filter(|color| is_black(**color)).count();
+            uneven += dark.min(floor.len() - dark) as u64;
+            dark_below += u64::from(above <= 0.0 && dark > 0);
+        }
+        let pixels = 2 * outside.len() as u64 * 8640;
+        record.count(format!("{what}: pixels unlike most"), uneven, pixels);
+        let lights = outside.len() as u64 + 1;
+        record.count(
+            format!("{what}: lights in the room that do not light it"),
+            dark_below,
+            lights,
+        );
     }
 }
 

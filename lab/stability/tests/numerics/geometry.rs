@@ -30,4 +30,6 @@ super::cases! {
     case_27_mesh_scaled_by_powers_of_two,
     case_28_coincident_objects,
     case_70_rim_of_a_disc,
+    case_71_long_thin_triangles,
+    case_73_hit_in_the_centre_of_a_sphere,
 }
