@@ -936,6 +936,41 @@ fn long_thin_triangles<T: Number>(record: &mut Record) {
         let distance = wall.iter().filter_map(|wall| wall.intersect(&ray, T::MAX));
         let nearest = distance.reduce(|a, b| if a < b { a } else { b });
         let in_front = patch.intersect(&ray, T::MAX);
+        holes += u64::from(nearest.is_none() || in_front.is_none());
+        behind += u64::from(
+            nearest
+                .zip(in_front)
+                .is_some_and(|(wall, patch)| wall <= patch),
+        );
+    }
+    record.count("rays that miss", holes, rays);
+    record.count("patches behind the wall", behind, rays);
+}
+
+fn hit_in_the_centre_of_a_sphere<T: Number>(record: &mut Record) {
+    let random = record.random(173);
+    let (mut none, mut without, mut rays) = (0, 0, 0);
+    for _ in 0..200 {
+        let camera: Vec3<T> = rounded(random.direction::<f64>() * random.log_between(1.0, 1e6));
+        let size = camera.abs().max_component().to_f64();
+        let radius = T::from_f64(size * unit::<T>() * random.log_between(1e-6, 1.0));
+        let mut pools = ScenePools::<T, 1, 0, 0, 1>::new();
+        let material = MaterialDescription {
+            ambient: grey(0.25),
+            reflection: T::HALF,
+            ..Default::default()
+        };
+        pools.as_mut().set_ambient(T::ONE);
+        let added = pools.as_mut().add_sphere(camera, radius, material);
+        added.expect("a radius");
+        let tracer = Tracer::new(pools.as_scene());
+        for _ in 0..100 {
+            let color = tracer.radiance(Ray::new(camera, random.direction()));
+            let channels = [color.r, color.g, color.b];
+            rays += 1;
+            none += u64::from(!channels.iter().all(|channel| channel.is_finite()));
+            without += u64::from(!(color.r >= T::from_f64(0.25)));
+        }
     }
     record.count("colours that are none", none, rays);
     record.count("rays that do not see the sphere", without, rays);
