@@ -1,6 +1,7 @@
 //! Image files: written row by row, read whole.
 
 mod gif;
+mod palette;
 mod png;
 mod ppm;
 
