@@ -156,12 +156,12 @@ fn merged(mut clusters: Vec<Cluster>) -> Vec<Cluster> {
         clusters.swap_remove(gone);
         partners.swap_remove(gone);
         let kept = if kept == last { gone } else { kept };
-        for index in 0..clusters.len() {
-            let of = partners[index].1;
+        for (index, known) in partners.iter_mut().enumerate() {
+            let (_, of) = *known;
             if index == kept || of == kept || of == gone {
-                partners[index] = partner(&clusters, index);
+                *known = partner(&clusters, index);
             } else if of == last {
-                partners[index].1 = gone;
+                known.1 = gone;
             }
         }
     }
