@@ -181,12 +181,12 @@ fn renderer() -> Renderer {
     }
 }
 
-/// What to do about text that an editor has marked as Unicode.
+/// What to do about text that an editor has saved in a form that cannot be read.
 fn encoding_help(text: &[u8]) -> Option<&'static str> {
-    if text.starts_with(b"\xef\xbb\xbf") {
-        Some("the file begins with a byte-order mark (BOM); save it as UTF-8 without one")
+    if text.contains(&b'\r') && !text.contains(&b'\n') {
+        Some("the file has carriage returns (CR) for line ends; save it with LF or CRLF")
     } else if text.starts_with(b"\xff\xfe") || text.starts_with(b"\xfe\xff") {
-        Some("the file is UTF-16; save it as UTF-8 without a byte-order mark (BOM)")
+        Some("the file is UTF-16; save it as UTF-8")
     } else {
         None
     }
@@ -201,6 +201,8 @@ fn error_report(name: &str, text: &[u8], error: &ParseError, renderer: &Renderer
         .rsplit(|byte| *byte == b'\n')
         .next()
         .unwrap_or_default();
+    // No editor shows it or counts it.
+    let before = before.strip_prefix(b"\xef\xbb\xbf").unwrap_or(before);
     let behind = text[offset..]
         .split(|byte| *byte == b'\n')
         .next()
@@ -212,7 +214,9 @@ fn error_report(name: &str, text: &[u8], error: &ParseError, renderer: &Renderer
     let (word, rest) = behind.split_at(word_length);
     let [before, word, rest] = [before, word, rest].map(String::from_utf8_lossy);
     let span = before.len()..before.len() + word.len();
+    // A carriage return within the line would be shown as the end of one.
     let line = [&*before, &*word, rest.trim_end_matches('\r')].concat();
+    let line = line.replace('\r', " ");
 
     let snippet = Snippet::source(line)
         .path(name)

@@ -314,6 +314,9 @@ struct Number<'t, T> {
     word: &'t [u8],
 }
 
+/// U+FEFF in UTF-8.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
 /// Reads a text record by record.
 struct Records<'t> {
     text: &'t [u8],
@@ -325,10 +328,12 @@ struct Records<'t> {
 
 impl<'t> Records<'t> {
     fn new(text: &'t [u8]) -> Self {
+        // Some editors begin every file with it.
+        let rest = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
         Self {
             text,
-            rest: text,
-            behind: 0,
+            rest,
+            behind: text.len() - rest.len(),
         }
     }
 

@@ -58,6 +58,8 @@ pub(crate) fn check_place(text: &[u8], error: &ParseError) -> Result<(), String>
     }
     let is_number = |byte: u8| !byte.is_ascii_whitespace() && byte != b'#';
     let (before, after) = text.split_at(error.offset);
+    // It is no part of the first word.
+    let before = before.strip_prefix(b"\xef\xbb\xbf").unwrap_or(before);
     let starts_word = after.first().is_some_and(|&b| is_number(b))
         && !before.last().is_some_and(|&b| is_number(b));
     let follows_word = before.last().is_some_and(|&b| is_number(b));

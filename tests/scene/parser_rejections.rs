@@ -283,3 +283,15 @@ fn colors_and_intensities_above_one_are_accepted() {
     assert_eq!(material.ambient, Color::new(1.5, 2.5, 3.5));
     assert_eq!(material.reflection, 1.2);
 }
+
+#[test]
+fn a_byte_order_mark_is_skipped_at_the_start_alone() {
+    let text = scene_of(&[sphere(1)]);
+    let mut pools = ScenePools::<f32>::new();
+    pools.parse(format!("\u{feff}{text}").as_bytes()).unwrap();
+    assert_eq!(pools.as_scene().object_count(), 1);
+    let error = rejection(text.replace("\n64", "\n\u{feff}64").as_bytes()).unwrap();
+    assert_eq!((error.line, error.column), (3, 1));
+    let error = rejection("\u{feff}".as_bytes()).unwrap();
+    assert_eq!((error.line, error.column, error.offset), (1, 4, 3));
+}

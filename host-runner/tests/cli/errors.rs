@@ -261,7 +261,7 @@ fn every_rejection_is_shown_at_its_place() {
 }
 
 #[test]
-fn marks_of_byte_order_are_named_with_a_remedy() {
+fn unreadable_encodings_are_named_with_a_remedy() {
     let folder = Folder::new();
     let utf16: Vec<u8> = [0xFEFF]
         .into_iter()
@@ -270,8 +270,8 @@ fn marks_of_byte_order_are_named_with_a_remedy() {
         .collect();
     for (text, words) in [
         (
-            format!("\u{feff}{SMALL_SCENE}").into_bytes(),
-            "byte-order mark (BOM); save it as UTF-8 without one",
+            SMALL_SCENE.replace('\n', "\r").into_bytes(),
+            "carriage returns (CR) for line ends; save it with LF or CRLF",
         ),
         (utf16, "the file is UTF-16; save it as UTF-8"),
     ] {
@@ -279,6 +279,20 @@ fn marks_of_byte_order_are_named_with_a_remedy() {
         let said = folder.fail(3, &["inspect", "scene.txt"]);
         assert!(said.contains(words), "{said}");
     }
+}
+
+#[test]
+fn a_byte_order_mark_at_the_start_is_skipped() {
+    let folder = Folder::new();
+    folder.write("plain.txt", SMALL_SCENE);
+    folder.write("scene.txt", format!("\u{feff}{SMALL_SCENE}"));
+    assert!(folder.draw(&["scene.txt"]) == folder.draw(&["plain.txt"]));
+    let canonical = |name| folder.succeed(&["fmt", "-o", "-", name]).stdout;
+    assert!(canonical("scene.txt") == canonical("plain.txt"));
+    // As editors count, which do not show it.
+    folder.write("scene.txt", format!("\u{feff}x{SMALL_SCENE}"));
+    let said = folder.fail(3, &["inspect", "scene.txt"]);
+    assert!(said.contains("scene.txt:1:1"), "{said}");
 }
 
 /// Tabs before a place in a file.
