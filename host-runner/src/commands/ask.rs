@@ -20,7 +20,7 @@ use crate::parallel_drawing::{Parts, Workers};
 use crate::pools::HostScalar;
 use crate::progress::Progress;
 use crate::scene_file::SceneSource;
-use crate::scene_listing;
+use crate::scene_listing::{self, Digits};
 
 /// Where the picture goes.
 const OUTPUT: &str = "output.ppm";
@@ -98,7 +98,7 @@ fn draw(source: &SceneSource) -> Result<(), Failure> {
     let scene = pools.as_scene();
     print(|out| {
         writeln!(out)?;
-        scene_listing::write(out, &scene)?;
+        scene_listing::write(out, &scene, Digits::AsPublished)?;
         writeln!(out)
     })?;
     let output = Path::new(OUTPUT);
