@@ -22,7 +22,7 @@ use crate::commands::render::RenderArgs;
 use crate::commands::view::ViewArgs;
 #[cfg(feature = "window")]
 use crate::commands::window::WindowArgs;
-use crate::console::say;
+use crate::console::{say, shown};
 
 /// What `--help` prints; commands of the laboratory are another program's.
 const HELP: &str = "\
@@ -122,7 +122,7 @@ impl Cli {
     /// cannot be understood.
     pub(crate) fn from_arguments() -> Command {
         let cli = Self::try_parse().unwrap_or_else(|error| {
-            let error = with_hint(error);
+            let error = with_hint(harmless(error));
             // Nobody may listen.
             let _ = error.print();
             if error.kind() == ErrorKind::MissingRequiredArgument
@@ -145,6 +145,32 @@ fn example_of_the_command() -> Option<String> {
     let mut lines = help.lines().map(str::trim_start);
     let example = lines.find(|line| line.starts_with(&format!("scanray {name} ")))?;
     Some(example.split("  ").next()?.to_owned())
+}
+
+/// The same error, but of the words that it quotes nothing is obeyed by a terminal.
+fn harmless(mut error: clap::Error) -> clap::Error {
+    let quoted: Vec<_> = error
+        .context()
+        .filter_map(|(kind, value)| match value {
+            ContextValue::String(word) => Some((kind, ContextValue::String(shown(word)))),
+            ContextValue::Strings(words) => {
+                let words = words.iter().map(shown).collect();
+                Some((kind, ContextValue::Strings(words)))
+            }
+            ContextValue::StyledStrs(tips) => {
+                let plain = tips.iter().map(|tip| shown(tip.to_string()).into());
+                let is_harmless = tips
+                    .iter()
+                    .all(|tip| shown(tip.to_string()) == tip.to_string());
+                (!is_harmless).then(|| (kind, ContextValue::StyledStrs(plain.collect())))
+            }
+            _ => None,
+        })
+        .collect();
+    for (kind, value) in quoted {
+        error.insert(kind, value);
+    }
+    error
 }
 
 /// Adds what a newcomer may have meant: a scene or an option without the command.
@@ -177,9 +203,12 @@ fn with_hint(error: clap::Error) -> clap::Error {
                 let digits = argument.strip_prefix('-');
                 digits.is_some_and(|digits| digits.starts_with(|c: char| c.is_ascii_digit()))
             };
-            std::env::args()
-                .find(is_negative)
-                .map(|place| format!("{place}: give column and row from 0 to 65535, such as 80,60"))
+            std::env::args().find(is_negative).map(|place| {
+                format!(
+                    "{}: give column and row from 0 to 65535, such as 80,60",
+                    shown(place)
+                )
+            })
         }
         ErrorKind::UnknownArgument
             if std::env::args().nth(1).is_some_and(|a| a.starts_with('-')) =>

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use scanray::ParseError;
 
-use crate::console::say;
+use crate::console::{is_invisible, say, shown};
 use crate::failure::Failure;
 use crate::pools::{HostPools, HostScalar};
 
@@ -57,12 +57,17 @@ impl SceneSource {
         }
     }
 
-    /// Its name in messages.
+    /// Its name in messages and comments.
     pub fn name(&self) -> String {
+        shown(self.data_name())
+    }
+
+    /// Its name in data for programs.
+    pub fn data_name(&self) -> String {
         match self {
             Self::Default => "<default scene>".to_owned(),
             Self::Stdin => "<stdin>".to_owned(),
-            Self::File(path) => path.display().to_string(),
+            Self::File(path) => path.to_string_lossy().into_owned(),
         }
     }
 
@@ -214,9 +219,16 @@ fn error_report(name: &str, text: &[u8], error: &ParseError, renderer: &Renderer
     let (word, rest) = behind.split_at(word_length);
     let [before, word, rest] = [before, word, rest].map(String::from_utf8_lossy);
     let span = before.len()..before.len() + word.len();
-    // A carriage return within the line would be shown as the end of one.
     let line = [&*before, &*word, rest.trim_end_matches('\r')].concat();
-    let line = line.replace('\r', " ");
+    // Character by character, so that the caret stays where it belongs; tabs are shown as such. What a terminal would obey has a
+    // sign of the same length.
+    let harmless = |c: char| match c.len_utf8() {
+        _ if c == '\t' || !is_invisible(c) => c,
+        1 => '.',
+        2 => '\u{a4}',
+        _ => '\u{fffd}',
+    };
+    let line: String = line.chars().map(harmless).collect();
 
     let snippet = Snippet::source(line)
         .path(name)

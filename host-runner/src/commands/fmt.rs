@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::Args;
 
 use crate::canonical_text::canonical;
-use crate::console::{print, say};
+use crate::console::{print, say, shown};
 use crate::failure::Failure;
 use crate::option_values::ScalarName;
 use crate::output_files::Place;
@@ -55,7 +55,7 @@ pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, Failure> {
     if let (Some(output), [_, _, ..]) = (&args.output, &*args.scenes) {
         return Err(Failure::Usage(format!(
             "-o {} cannot take {} scenes: leave -o out to rewrite each in its place",
-            output.display(),
+            shown(output),
             args.scenes.len()
         )));
     }

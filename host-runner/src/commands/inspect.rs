@@ -55,7 +55,7 @@ fn inspect<T: HostScalar>(scene: &SceneSource, json: bool) -> Result<(), Failure
     let mut pools = T::pools();
     scene.load(&mut pools)?;
     if json {
-        let report = SceneReport::new(scene.name(), &pools.as_scene());
+        let report = SceneReport::new(scene.data_name(), &pools.as_scene());
         return print(|out| {
             serde_json::to_writer(&mut *out, &report)?;
             writeln!(out)

@@ -228,8 +228,8 @@ impl Job<'_> {
         let settings = &self.settings;
         let turntable = self.turntable.zip(axis);
         RenderReport {
-            scene: self.scene.name(),
-            file: file.place.name(),
+            scene: self.scene.data_name(),
+            file: file.place.data_name(),
             bytes: 0,
             size: studio.resolution,
             rows: studio.rows.clone(),
