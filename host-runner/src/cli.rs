@@ -23,6 +23,7 @@ use crate::commands::view::ViewArgs;
 #[cfg(feature = "window")]
 use crate::commands::window::WindowArgs;
 use crate::console::{say, shown};
+use crate::option_values::meant_for_option;
 
 /// What `--help` prints; commands of the laboratory are another program's.
 const HELP: &str = "\
@@ -41,6 +42,8 @@ Laboratory, the program scanray-lab, which these run:
 #[command(
     name = "scanray",
     version,
+    // A word at the end of a line that is called again changes what it says.
+    args_override_self = true,
     help_template = HELP,
     after_help = "\
 Without a command, the default scene is drawn into output.ppm.
@@ -197,6 +200,8 @@ fn with_hint(error: clap::Error) -> clap::Error {
                 format!("{argument} is empty: a variable that is not set, perhaps?")
             })
         }
+        ErrorKind::ValueValidation => word(ContextKind::InvalidValue)
+            .and_then(|value| Some(format!("{}: {}", shown(&value), meant_for_option(&value)?))),
         // A negative column looks like an option.
         ErrorKind::UnknownArgument if std::env::args().nth(1).is_some_and(|a| a == "pixel") => {
             let is_negative = |argument: &String| {

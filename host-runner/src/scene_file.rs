@@ -9,6 +9,7 @@ use scanray::ParseError;
 
 use crate::console::{is_invisible, say, shown};
 use crate::failure::Failure;
+use crate::option_values::meant_for_option;
 use crate::pools::{HostPools, HostScalar};
 
 /// The scene that is drawn when none is named.
@@ -89,8 +90,10 @@ impl SceneSource {
         let cannot = |error: io::Error| {
             let why = match error.kind() {
                 io::ErrorKind::NotFound => {
-                    "there is no such file (scanray example > scene.txt writes one to start from)"
-                        .to_owned()
+                    let advice = meant_for_option(&self.data_name()).unwrap_or_else(|| {
+                        "scanray example > scene.txt writes one to start from".to_owned()
+                    });
+                    format!("there is no such file ({advice})")
                 }
                 io::ErrorKind::IsADirectory => "it is a folder; name a scene in it".to_owned(),
                 _ => error.to_string(),
@@ -165,9 +168,7 @@ impl SceneSource {
         let report = pools
             .parse(text)
             .map_err(|error| Failure::Scene(error_report(&self.name(), text, &error, renderer)))?;
-        // The default scene is that of the paper, which nobody here can mend.
-        let short = report.short_light_line.filter(|_| *self != Self::Default);
-        Ok(short.map(|line| {
+        Ok(report.short_light_line.map(|line| {
             format!(
                 "warning: {}:{line}: the light has 8 numbers instead of 9; the last is used twice",
                 self.name()

@@ -282,6 +282,55 @@ fn unreadable_encodings_are_named_with_a_remedy() {
 }
 
 #[test]
+fn a_word_behind_an_option_without_the_sign_of_equality_is_told() {
+    let folder = Folder::new();
+    folder.write("scene.txt", SMALL_SCENE);
+    for (code, arguments) in [
+        (4, &["render", "--dither", "off"][..]),
+        (4, &["render", "scene.txt", "--dither", "off"]),
+        (4, &["view", "--dither", "off"]),
+        (2, &["pixel", "scene.txt", "--dither", "off", "4,3"]),
+    ] {
+        let run = folder.run(arguments);
+        let said = run.stderr;
+        assert_eq!(run.code, code, "{arguments:?}: {said}");
+        assert!(
+            said.contains("if it is meant for --dither, write --dither=off"),
+            "{arguments:?}: {said}"
+        );
+    }
+    // A scene may stand there, and a file of that name.
+    folder.succeed(&["render", "--dither", "scene.txt"]);
+    let said = folder.fail(4, &["render", "off"]);
+    assert!(!said.contains("--dither"), "{said}");
+}
+
+#[test]
+fn of_repeated_options_the_last_holds() {
+    let folder = Folder::new();
+    let drawn = folder.draw(&[
+        "--size",
+        "9x9",
+        "--dither",
+        "--size",
+        "4x3",
+        "--dither=off",
+        "--scalar",
+        "f64",
+        "--scalar=f32",
+    ]);
+    assert!(drawn == folder.draw(&["--size", "4x3"]));
+    let twice = folder.succeed(&["needs", "--json", "--json"]).stdout;
+    assert!(twice == folder.succeed(&["needs", "--json"]).stdout);
+    // Those that take several values keep them all.
+    folder.write("a.txt", SMALL_SCENE);
+    let two = folder
+        .succeed(&["pixel", "a.txt", "4,3", "4,4", "--json"])
+        .stdout;
+    assert_eq!(two.iter().filter(|byte| **byte == b'\n').count(), 2);
+}
+
+#[test]
 fn a_byte_order_mark_at_the_start_is_skipped() {
     let folder = Folder::new();
     folder.write("plain.txt", SMALL_SCENE);
@@ -330,10 +379,13 @@ fn control_characters_of_a_scene_do_not_reach_the_terminal() {
 #[test]
 fn the_light_of_8_numbers_is_worth_a_warning() {
     let folder = Folder::new();
-    let path = scene("default");
-    let run = folder.succeed(&["inspect", &path]);
-    let warning = format!("warning: {path}:4: the light has 8 numbers instead of 9");
-    assert!(run.stderr.starts_with(&warning), "{}", run.stderr);
+    folder.write(
+        "short.txt",
+        SMALL_SCENE.replace("1 1 1  1 1 1\n", "1 1 1  1 1\n"),
+    );
+    let run = folder.succeed(&["inspect", "short.txt"]);
+    let warning = "warning: short.txt:4: the light has 8 numbers instead of 9";
+    assert!(run.stderr.starts_with(warning), "{}", run.stderr);
     folder.write("small.txt", SMALL_SCENE);
     assert_eq!(folder.succeed(&["inspect", "small.txt"]).stderr, "");
 }
@@ -350,6 +402,38 @@ fn a_bad_scene_does_not_keep_the_others_from_being_drawn() {
         folder.names(),
         ["a.ppm", "a.txt", "b.txt", "c.ppm", "c.txt"]
     );
+}
+
+#[test]
+fn sentences_of_help_have_no_line_break_in_them() {
+    let folder = Folder::new();
+    let commands = folder.succeed(&["--help"]).stdout;
+    let commands = String::from_utf8(commands).unwrap();
+    let (_, commands) = commands.split_once("Commands:\n").unwrap();
+    let (commands, _) = commands.split_once("\n\n").unwrap();
+    let names = commands
+        .lines()
+        .filter_map(|line| line.split_whitespace().next());
+    let mut broken = Vec::new();
+    for name in names.filter(|name| *name != "help") {
+        // So wide that nothing is wrapped.
+        let output = folder
+            .program(&[name, "--help"])
+            .env("COLUMNS", "1000")
+            .output()
+            .unwrap();
+        let help = String::from_utf8(output.stdout).unwrap();
+        let lines: Vec<_> = help.lines().collect();
+        for pair in lines.windows(2) {
+            let is_text = |line: &str| line.starts_with(|c: char| c.is_alphanumeric() || c == '`');
+            let goes_on =
+                pair[1].starts_with(|c: char| c.is_lowercase()) && !pair[1].contains("  ");
+            if is_text(pair[0]) && is_text(pair[1]) && goes_on {
+                broken.push(format!("{name}: {}\n{}", pair[0], pair[1]));
+            }
+        }
+    }
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
 }
 
 #[test]
