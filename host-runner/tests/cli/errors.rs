@@ -202,7 +202,7 @@ fn scene_errors_show_the_place() {
             (8, sphere.len() as u32 + 1),
             sphere,
             &(" ".repeat(sphere.len()) + "^"),
-            "expected object 2 of the 2 that the first line announces; found the end of the text",
+            "expected object 2: line 1 says 2 objects, 1 follow: write 1; found the end of the text",
         ),
         (String::new(), (1, 1), "", "^", "found the end of the text"),
     ] {
