@@ -36,6 +36,7 @@ pub mod scene_file;
 mod scene_json;
 mod scene_lines;
 mod scene_listing;
+mod scene_warnings;
 mod turntable;
 
 use std::process::ExitCode;

@@ -11,6 +11,7 @@ use crate::console::{is_invisible, say, shown};
 use crate::failure::Failure;
 use crate::option_values::meant_for_option;
 use crate::pools::{HostPools, HostScalar};
+use crate::scene_warnings::warnings;
 
 /// The scene that is drawn when none is named.
 const DEFAULT_SCENE: &[u8] = include_bytes!("../../scenes/default.txt");
@@ -154,7 +155,7 @@ impl SceneSource {
         self.parse(text, &mut T::pools(), &renderer()).map(drop)
     }
 
-    /// The same as [`SceneSource::load_text`], but the warning is returned.
+    /// The same as [`SceneSource::load_text`], but the warnings are returned, each a line.
     ///
     /// # Errors
     ///
@@ -168,12 +169,21 @@ impl SceneSource {
         let report = pools
             .parse(text)
             .map_err(|error| Failure::Scene(error_report(&self.name(), text, &error, renderer)))?;
-        Ok(report.short_light_line.map(|line| {
-            format!(
-                "warning: {}:{line}: the light has 8 numbers instead of 9; the last is used twice",
-                self.name()
-            )
-        }))
+        let short = report.short_light_line.map(|line| {
+            let words = "the light has 8 numbers instead of 9; the last is used twice";
+            (line, words.to_owned())
+        });
+        // The scene in the program is not the user's to mend.
+        let unmeant = match self {
+            Self::Default => Vec::new(),
+            Self::Stdin | Self::File(_) => warnings(text, &pools.as_scene()),
+        };
+        let warnings: Vec<String> = short
+            .into_iter()
+            .chain(unmeant)
+            .map(|(line, words)| format!("warning: {}:{line}: {words}", self.name()))
+            .collect();
+        Ok((!warnings.is_empty()).then(|| warnings.join("\n")))
     }
 }
 

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use annotate_snippets::Renderer;
 use clap::Args;
 
 use crate::canonical_text::canonical;
@@ -90,7 +91,8 @@ fn format_one<T: HostScalar>(path: &PathBuf, args: &FmtArgs) -> Result<ExitCode,
             .map_err(|error| Failure::Scene(format!("error: {}: {error}", source.name())))
     };
     let before = print_scene(&pools)?;
-    source.load_text(&tidy, &mut pools)?;
+    // Its warnings were told.
+    source.parse(&tidy, &mut pools, &Renderer::plain())?;
     if print_scene(&pools)? != before {
         return Err(Failure::Scene(format!(
             "error: {}: the canonical form would be another scene, which is a fault of this program; the file is as \

@@ -444,3 +444,39 @@ fn help_has_examples() {
         assert!(help.contains("Examples:\n  scanray"), "{help}");
     }
 }
+
+#[test]
+fn what_is_hardly_meant_is_worth_a_warning() {
+    let folder = Folder::new();
+    let bright = SMALL_SCENE.replace(".8 .2 .2", "255 51 51");
+    folder.write("bright.txt", bright);
+    let warning = "warning: bright.txt:8: the diffuse colour 255 51 51 looks like levels of 0 to 255, but 1 is full intensity: \
+                   write 1 0.2 0.2\n";
+    for command in [
+        &["inspect", "bright.txt"][..],
+        &["fmt", "--check", "bright.txt"],
+        &["render", "bright.txt", "-o", "x.ppm"],
+    ] {
+        let said = folder.run(command).stderr;
+        assert_eq!(said.matches(warning).count(), 1, "{command:?}: {said}");
+    }
+    folder.write("inside.txt", SMALL_SCENE.replace("0 0 3  1", "0 0 0.5  1"));
+    let said = folder.succeed(&["inspect", "inside.txt"]).stderr;
+    assert!(
+        said.starts_with("warning: inside.txt:8: the camera is inside of this sphere"),
+        "{said}"
+    );
+    for name in [
+        "default",
+        "mirror-room",
+        "pyramids",
+        "reflective",
+        "window-room",
+    ] {
+        assert_eq!(
+            folder.succeed(&["inspect", &scene(name)]).stderr,
+            "",
+            "{name}"
+        );
+    }
+}

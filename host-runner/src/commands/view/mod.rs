@@ -377,7 +377,11 @@ impl Session<'_> {
         })?;
         if stop.is_none() {
             let state = format!("{} ms", start.elapsed().as_millis());
-            self.message = warning.into_iter().chain([status(&state)]).collect();
+            let warnings = warning.iter().flat_map(|lines| lines.lines());
+            self.message = warnings
+                .map(str::to_owned)
+                .chain([status(&state)])
+                .collect();
             self.style = layout.style;
             self.picture = Some(fitted(&pixels, layout.shown)?.into_owned());
             self.show()?;
