@@ -451,7 +451,7 @@ def model_checks(report, boards, program, builder, large):
 def oled_checks(builder, report, reference, bless):
     report.check("OLED clippy", lambda: builder.lint("lm3s6965evb"))
     for scene, path in scenes().items():
-        png = os.path.join(FIRMWARE, "tables", "oled.png") if bless and scene == "default" else None
+        png = os.path.join(FIRMWARE, "../docs/oled.png") if bless and scene == "default" else None
         report.check(f"OLED {scene}", lambda: oled_check(builder, reference, scene, path, png))
 
 

@@ -22,7 +22,8 @@ use crate::commands::render::RenderArgs;
 use crate::commands::view::ViewArgs;
 #[cfg(feature = "window")]
 use crate::commands::window::WindowArgs;
-use crate::console::say;
+use crate::console::{say, shown};
+use crate::option_values::meant_for_option;
 
 /// What `--help` prints; commands of the laboratory are another program's.
 const HELP: &str = "\
@@ -41,6 +42,8 @@ Laboratory, the program scanray-lab, which these run:
 #[command(
     name = "scanray",
     version,
+    // A word at the end of a line that is called again changes what it says.
+    args_override_self = true,
     help_template = HELP,
     after_help = "\
 Without a command, the default scene is drawn into output.ppm.
@@ -122,7 +125,7 @@ impl Cli {
     /// cannot be understood.
     pub(crate) fn from_arguments() -> Command {
         let cli = Self::try_parse().unwrap_or_else(|error| {
-            let error = with_hint(error);
+            let error = with_hint(harmless(error));
             // Nobody may listen.
             let _ = error.print();
             if error.kind() == ErrorKind::MissingRequiredArgument
@@ -145,6 +148,32 @@ fn example_of_the_command() -> Option<String> {
     let mut lines = help.lines().map(str::trim_start);
     let example = lines.find(|line| line.starts_with(&format!("scanray {name} ")))?;
     Some(example.split("  ").next()?.to_owned())
+}
+
+/// The same error, but of the words that it quotes nothing is obeyed by a terminal.
+fn harmless(mut error: clap::Error) -> clap::Error {
+    let quoted: Vec<_> = error
+        .context()
+        .filter_map(|(kind, value)| match value {
+            ContextValue::String(word) => Some((kind, ContextValue::String(shown(word)))),
+            ContextValue::Strings(words) => {
+                let words = words.iter().map(shown).collect();
+                Some((kind, ContextValue::Strings(words)))
+            }
+            ContextValue::StyledStrs(tips) => {
+                let plain = tips.iter().map(|tip| shown(tip.to_string()).into());
+                let is_harmless = tips
+                    .iter()
+                    .all(|tip| shown(tip.to_string()) == tip.to_string());
+                (!is_harmless).then(|| (kind, ContextValue::StyledStrs(plain.collect())))
+            }
+            _ => None,
+        })
+        .collect();
+    for (kind, value) in quoted {
+        error.insert(kind, value);
+    }
+    error
 }
 
 /// Adds what a newcomer may have meant: a scene or an option without the command.
@@ -171,15 +200,20 @@ fn with_hint(error: clap::Error) -> clap::Error {
                 format!("{argument} is empty: a variable that is not set, perhaps?")
             })
         }
+        ErrorKind::ValueValidation => word(ContextKind::InvalidValue)
+            .and_then(|value| Some(format!("{}: {}", shown(&value), meant_for_option(&value)?))),
         // A negative column looks like an option.
         ErrorKind::UnknownArgument if std::env::args().nth(1).is_some_and(|a| a == "pixel") => {
             let is_negative = |argument: &String| {
                 let digits = argument.strip_prefix('-');
                 digits.is_some_and(|digits| digits.starts_with(|c: char| c.is_ascii_digit()))
             };
-            std::env::args()
-                .find(is_negative)
-                .map(|place| format!("{place}: give column and row from 0 to 65535, such as 80,60"))
+            std::env::args().find(is_negative).map(|place| {
+                format!(
+                    "{}: give column and row from 0 to 65535, such as 80,60",
+                    shown(place)
+                )
+            })
         }
         ErrorKind::UnknownArgument
             if std::env::args().nth(1).is_some_and(|a| a.starts_with('-')) =>

@@ -5,6 +5,8 @@ use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
+use crate::console::shown;
+
 /// The end of a command, with the words for it.
 #[derive(Debug)]
 pub enum Failure {
@@ -23,7 +25,7 @@ pub enum Failure {
 impl Failure {
     /// A file could not be read or written.
     pub fn file(deed: &str, path: &Path, why: impl Display) -> Self {
-        Self::Files(format!("cannot {deed} {}: {why}", path.display()))
+        Self::Files(format!("cannot {deed} {}: {why}", shown(path)))
     }
 
     /// Standard output could not be written.

@@ -4,6 +4,8 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+#[cfg(unix)]
+use std::time::Duration;
 
 /// What a signal meets.
 #[derive(Debug)]
@@ -14,6 +16,8 @@ struct State {
     ends_by_itself: bool,
     /// The signal that came, if the program ends by itself.
     signal: Option<u8>,
+    /// What makes the terminal usable again, should the program not end by itself in time.
+    restore: Option<fn()>,
     /// Files to be removed.
     unfinished: Vec<PathBuf>,
     /// What is said.
@@ -26,6 +30,7 @@ static STATE: Mutex<State> = Mutex::new(State {
     is_listening: false,
     ends_by_itself: false,
     signal: None,
+    restore: None,
     unfinished: Vec::new(),
     advice: None,
     advice_when_finished: None,
@@ -76,6 +81,69 @@ pub(crate) fn exit_code() -> Option<u8> {
     state.signal.map(|signal| 128 + signal)
 }
 
+/// Has the terminal restored when the program is interrupted and does not end by itself in time.
+pub(crate) fn restore_by(restore: Option<fn()>) {
+    state().restore = restore;
+}
+
+/// A program that ends by itself has so much time for it: it may wait for a terminal that is gone, for ever.
+#[cfg(unix)]
+const GRACE: Duration = Duration::from_millis(700);
+
+/// Tells the program that it is to end, and ends it if it does not.
+#[cfg(unix)]
+fn end_soon(mut state: MutexGuard<'_, State>, signal: i32) -> ! {
+    let number = u8::try_from(signal).unwrap_or_default();
+    state.signal = Some(number);
+    drop(state);
+    std::thread::sleep(GRACE);
+    if let Some(restore) = self::state().restore {
+        // A terminal that is stopped or gone must not hold up the end.
+        let restoring = std::thread::spawn(restore);
+        let steps = 20;
+        for _ in 0..steps {
+            if restoring.is_finished() {
+                break;
+            }
+            std::thread::sleep(GRACE / steps);
+        }
+    }
+    std::process::exit(128 + i32::from(number));
+}
+
+/// Ends the program as SIGHUP does when its terminal is gone, also where that signal is ignored or goes to others.
+#[cfg(unix)]
+pub(crate) fn end_on_hang_up() {
+    use rustix::event::{PollFd, PollFlags, poll};
+    use std::fs::File;
+    use std::io::IsTerminal;
+    use std::os::fd::AsFd;
+    // What keys are read from.
+    let stdin = std::io::stdin();
+    let terminal = if stdin.is_terminal() {
+        stdin.as_fd().try_clone_to_owned()
+    } else {
+        File::open("/dev/tty").map(Into::into)
+    };
+    let Ok(terminal) = terminal else { return };
+    std::thread::spawn(move || {
+        loop {
+            let mut fds = [PollFd::new(&terminal, PollFlags::empty())];
+            match poll(&mut fds, None) {
+                Ok(_) if fds[0].revents().contains(PollFlags::HUP) => break,
+                Err(rustix::io::Errno::INTR) => {}
+                // Here nothing can be known.
+                _ => return,
+            }
+        }
+        end_soon(state(), signal_hook::consts::SIGHUP)
+    });
+}
+
+/// Elsewhere the window of a terminal ends its programs.
+#[cfg(not(unix))]
+pub(crate) fn end_on_hang_up() {}
+
 #[cfg(unix)]
 fn listen() {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -88,10 +156,9 @@ fn listen() {
     std::thread::spawn(move || {
         for signal in signals.forever() {
             // Held until the end, so that no other file is begun.
-            let mut state = state();
+            let state = state();
             if state.ends_by_itself {
-                state.signal = u8::try_from(signal).ok();
-                continue;
+                end_soon(state, signal);
             }
             for path in &state.unfinished {
                 let _ = std::fs::remove_file(path);

@@ -16,6 +16,7 @@ mod host_pixels;
 mod host_tracer;
 pub mod image;
 mod interrupt;
+mod json_numbers;
 pub mod knobs;
 mod laboratory;
 pub mod option_values;
@@ -32,8 +33,10 @@ mod ray_tree;
 mod render_report;
 mod render_settings;
 pub mod scene_file;
+mod scene_json;
 mod scene_lines;
 mod scene_listing;
+mod scene_warnings;
 mod turntable;
 
 use std::process::ExitCode;

@@ -6,6 +6,7 @@ use std::str::FromStr;
 use clap::ValueEnum;
 use scanray::Resolution;
 
+use crate::console::shown;
 use crate::turntable::Axis;
 
 /// `WxH`.
@@ -87,6 +88,25 @@ impl RangeOption {
         }
         Ok(range)
     }
+}
+
+/// Options whose value may be left out, so that it needs the sign of equality.
+const WITH_OPTIONAL_VALUE: [&str; 2] = ["--dither", "--emulate"];
+
+/// What to say of a word of the command line that cannot be what it is taken for, if it stands behind an option whose value it
+/// may be.
+pub(crate) fn meant_for_option(word: &str) -> Option<String> {
+    let arguments: Vec<_> = std::env::args_os().collect();
+    let option = arguments
+        .iter()
+        .zip(arguments.iter().skip(1))
+        .find_map(|(option, behind)| (behind == word).then_some(option.to_str()?))?;
+    WITH_OPTIONAL_VALUE.contains(&option).then(|| {
+        format!(
+            "if it is meant for {option}, write {option}={}",
+            shown(word)
+        )
+    })
 }
 
 /// `X,Z`: a vertical axis.

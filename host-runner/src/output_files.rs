@@ -4,6 +4,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use crate::console::shown;
 use crate::failure::Failure;
 use crate::interrupt;
 
@@ -43,7 +44,7 @@ impl Place {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 let folder = folder_of(name);
                 if !folder.is_dir() {
-                    let folder = folder.display();
+                    let folder = shown(folder);
                     return Err(cannot(&format_args!("there is no folder {folder}")));
                 }
                 // A link to a file that is not there yet stays a link.
@@ -62,9 +63,14 @@ impl Place {
 
     /// Its name in messages.
     pub fn name(&self) -> String {
+        shown(self.data_name())
+    }
+
+    /// Its name in data for programs.
+    pub fn data_name(&self) -> String {
         match self {
             Self::Stdout => "<stdout>".to_owned(),
-            Self::File { name, .. } | Self::Device(name) => name.display().to_string(),
+            Self::File { name, .. } | Self::Device(name) => name.to_string_lossy().into_owned(),
         }
     }
 

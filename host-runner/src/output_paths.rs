@@ -6,6 +6,7 @@ use std::io::{self, IsTerminal};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use crate::console::shown;
 use crate::failure::Failure;
 use crate::image::ImageFormat;
 use crate::output_files::Place;
@@ -67,7 +68,7 @@ pub(crate) fn places(
         (Some(output), _) => Err(Failure::Usage(format!(
             "-o {} cannot take the pictures of {} scenes: name an existing folder, or leave -o out to \
              get NAME.{default_extension} for each in this one",
-            output.display(),
+            shown(output),
             scenes.len()
         ))),
     }?;
@@ -97,7 +98,7 @@ pub(crate) fn single_place(
         }
         return Ok((Place::Stdout, ImageFormat::Ppm));
     }
-    let name = output.display();
+    let name = shown(output);
     if output.to_string_lossy().ends_with(std::path::is_separator) {
         return Err(Failure::Usage(format!(
             "-o {name}: there is no such folder"
@@ -138,7 +139,7 @@ pub(crate) fn refuse_input_as_output<'a>(
     if there.is_file() && inputs.into_iter().any(is_there) {
         return Err(Failure::Usage(format!(
             "cannot write {}: it would overwrite what is read; name another file",
-            output.display()
+            shown(output)
         )));
     }
     Ok(())
@@ -197,7 +198,7 @@ fn refuse_doubles(scenes: &[SceneSource], paths: &[PathBuf]) -> Result<(), Failu
                 "{} and {} would both become {}: draw them one by one with -o",
                 first.name(),
                 scene.name(),
-                path.display()
+                shown(path)
             )));
         }
     }

@@ -15,6 +15,7 @@ use std::ops::Range;
 use scanray::{Resolution, Scalar, Scene};
 use sha2::{Digest, Sha256};
 
+use crate::console::shown;
 use crate::option_values::Size;
 use crate::render_settings::PictureSettings;
 
@@ -116,9 +117,13 @@ impl PartRecord {
         let mut differences = Vec::new();
         let mut compare = |name: &str, mine: Option<&str>, others: Option<&str>| {
             if mine != others {
-                let [mine, others] = [mine, others].map(|value| value.unwrap_or("none"));
+                // They come from files.
+                let [mine, others] = [mine, others].map(|value| shown(value.unwrap_or("none")));
                 let dashes = if NO_OPTIONS.contains(&name) { "" } else { "--" };
-                differences.push(format!("{dashes}{name} {others} instead of {mine}"));
+                differences.push(format!(
+                    "{dashes}{} {others} instead of {mine}",
+                    shown(name)
+                ));
             }
         };
         let [mine, others] = [self, other].map(|record| {

@@ -10,6 +10,8 @@ use std::path::Path;
 
 use scanray::{Color, Light, MaterialDescription, Resolution, Scalar, Scene, Vec3, shape::Shape};
 
+use crate::console::shown;
+
 /// The share that a surface keeps for its own colour at least, because it is divided by.
 const LEAST_OPACITY: f64 = 1e-3;
 
@@ -35,7 +37,7 @@ impl<T: Scalar> fmt::Display for PovScene<'_, T> {
         writeln!(
             f,
             "// {}, for POV-Ray 3.7, written by scanray. To draw it with scanray's values:",
-            self.name.replace('\n', " ")
+            self.name
         )?;
         writeln!(
             f,
@@ -107,7 +109,7 @@ impl<T: Scalar> fmt::Display for PovScene<'_, T> {
 
 /// An option with a path, as a shell and one line have it.
 fn shell_word(option: &str, path: &Path) -> String {
-    let word = format!("{option}{}", path.display()).replace('\n', " ");
+    let word = format!("{option}{}", shown(path));
     let is_plain = |c: char| c.is_alphanumeric() || "+-_./".contains(c);
     if word.chars().all(is_plain) {
         word

@@ -7,9 +7,11 @@ use std::path::{Path, PathBuf};
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use scanray::ParseError;
 
-use crate::console::say;
+use crate::console::{is_invisible, say, shown};
 use crate::failure::Failure;
+use crate::option_values::meant_for_option;
 use crate::pools::{HostPools, HostScalar};
+use crate::scene_warnings::warnings;
 
 /// The scene that is drawn when none is named.
 const DEFAULT_SCENE: &[u8] = include_bytes!("../../scenes/default.txt");
@@ -57,12 +59,17 @@ impl SceneSource {
         }
     }
 
-    /// Its name in messages.
+    /// Its name in messages and comments.
     pub fn name(&self) -> String {
+        shown(self.data_name())
+    }
+
+    /// Its name in data for programs.
+    pub fn data_name(&self) -> String {
         match self {
             Self::Default => "<default scene>".to_owned(),
             Self::Stdin => "<stdin>".to_owned(),
-            Self::File(path) => path.display().to_string(),
+            Self::File(path) => path.to_string_lossy().into_owned(),
         }
     }
 
@@ -84,8 +91,10 @@ impl SceneSource {
         let cannot = |error: io::Error| {
             let why = match error.kind() {
                 io::ErrorKind::NotFound => {
-                    "there is no such file (scanray example > scene.txt writes one to start from)"
-                        .to_owned()
+                    let advice = meant_for_option(&self.data_name()).unwrap_or_else(|| {
+                        "scanray example > scene.txt writes one to start from".to_owned()
+                    });
+                    format!("there is no such file ({advice})")
                 }
                 io::ErrorKind::IsADirectory => "it is a folder; name a scene in it".to_owned(),
                 _ => error.to_string(),
@@ -146,7 +155,7 @@ impl SceneSource {
         self.parse(text, &mut T::pools(), &renderer()).map(drop)
     }
 
-    /// The same as [`SceneSource::load_text`], but the warning is returned.
+    /// The same as [`SceneSource::load_text`], but the warnings are returned, each a line.
     ///
     /// # Errors
     ///
@@ -160,14 +169,21 @@ impl SceneSource {
         let report = pools
             .parse(text)
             .map_err(|error| Failure::Scene(error_report(&self.name(), text, &error, renderer)))?;
-        // The default scene is that of the paper, which nobody here can mend.
-        let short = report.short_light_line.filter(|_| *self != Self::Default);
-        Ok(short.map(|line| {
-            format!(
-                "warning: {}:{line}: the light has 8 numbers instead of 9; the last is used twice",
-                self.name()
-            )
-        }))
+        let short = report.short_light_line.map(|line| {
+            let words = "the light has 8 numbers instead of 9; the last is used twice";
+            (line, words.to_owned())
+        });
+        // The scene in the program is not the user's to mend.
+        let unmeant = match self {
+            Self::Default => Vec::new(),
+            Self::Stdin | Self::File(_) => warnings(text, &pools.as_scene()),
+        };
+        let warnings: Vec<String> = short
+            .into_iter()
+            .chain(unmeant)
+            .map(|(line, words)| format!("warning: {}:{line}: {words}", self.name()))
+            .collect();
+        Ok((!warnings.is_empty()).then(|| warnings.join("\n")))
     }
 }
 
@@ -181,12 +197,12 @@ fn renderer() -> Renderer {
     }
 }
 
-/// What to do about text that an editor has marked as Unicode.
+/// What to do about text that an editor has saved in a form that cannot be read.
 fn encoding_help(text: &[u8]) -> Option<&'static str> {
-    if text.starts_with(b"\xef\xbb\xbf") {
-        Some("the file begins with a byte-order mark (BOM); save it as UTF-8 without one")
+    if text.contains(&b'\r') && !text.contains(&b'\n') {
+        Some("the file has carriage returns (CR) for line ends; save it with LF or CRLF")
     } else if text.starts_with(b"\xff\xfe") || text.starts_with(b"\xfe\xff") {
-        Some("the file is UTF-16; save it as UTF-8 without a byte-order mark (BOM)")
+        Some("the file is UTF-16; save it as UTF-8")
     } else {
         None
     }
@@ -201,6 +217,8 @@ fn error_report(name: &str, text: &[u8], error: &ParseError, renderer: &Renderer
         .rsplit(|byte| *byte == b'\n')
         .next()
         .unwrap_or_default();
+    // No editor shows it or counts it.
+    let before = before.strip_prefix(b"\xef\xbb\xbf").unwrap_or(before);
     let behind = text[offset..]
         .split(|byte| *byte == b'\n')
         .next()
@@ -213,6 +231,15 @@ fn error_report(name: &str, text: &[u8], error: &ParseError, renderer: &Renderer
     let [before, word, rest] = [before, word, rest].map(String::from_utf8_lossy);
     let span = before.len()..before.len() + word.len();
     let line = [&*before, &*word, rest.trim_end_matches('\r')].concat();
+    // Character by character, so that the caret stays where it belongs; tabs are shown as such. What a terminal would obey has a
+    // sign of the same length.
+    let harmless = |c: char| match c.len_utf8() {
+        _ if c == '\t' || !is_invisible(c) => c,
+        1 => '.',
+        2 => '\u{a4}',
+        _ => '\u{fffd}',
+    };
+    let line: String = line.chars().map(harmless).collect();
 
     let snippet = Snippet::source(line)
         .path(name)

@@ -26,8 +26,9 @@ impl<'t> Line<'t> {
     }
 }
 
-/// The lines of a text. A line feed at the end begins no further line.
+/// The lines of a text, without a byte-order mark. A line feed at the end begins no further line.
 pub(crate) fn lines(text: &[u8]) -> impl Iterator<Item = Line<'_>> {
+    let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
     let lines = text.split_inclusive(|byte| *byte == b'\n').zip(1..);
     lines.map(|(line, number)| {
         let comment_at = line.iter().position(|byte| *byte == b'#');
@@ -77,6 +78,10 @@ mod tests {
             ]
         );
         assert_eq!(lines(b"").count(), 0);
+        let marked: Vec<_> = lines(b"\xef\xbb\xbf1\n")
+            .flat_map(|line| words(&line))
+            .collect();
+        assert_eq!(marked, ["1"]);
         assert_eq!(lines(b"\n").count(), 1);
     }
 

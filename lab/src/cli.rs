@@ -13,6 +13,8 @@ use crate::commands::tune::TuneArgs;
 #[command(
     name = "scanray-lab",
     version,
+    // As in scanray.
+    args_override_self = true,
     after_help = "\
 `scanray report`, `scanray tune` and `scanray stability` are the same commands: scanray runs this program if it stands beside it or \
 in PATH.

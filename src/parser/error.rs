@@ -38,15 +38,21 @@ pub enum Expected {
     EndOfLine,
     /// No further object.
     EndOfScene {
-        /// Number of objects that line 1 announces.
+        /// Number of objects that the first number announces.
         objects: u32,
+        /// Number of objects that there are.
+        follow: u32,
+        /// The line of the first number.
+        line: u32,
     },
     /// An object.
     Object {
         /// The one that is missing, from 1.
         number: u32,
-        /// Number of objects that line 1 announces.
+        /// Number of objects that the first number announces.
         of: u32,
+        /// The line of the first number.
+        line: u32,
     },
     /// Room in a pool.
     Room {
@@ -246,14 +252,27 @@ impl fmt::Display for Expected {
         match self {
             Self::Number { name, range } => write!(f, "the {name}: {range}"),
             Self::EndOfLine => f.write_str("the end of the line"),
-            Self::EndOfScene { objects } => write!(
+            // What follows is no object.
+            Self::EndOfScene {
+                objects,
+                follow,
+                line,
+            } if follow == objects => write!(
                 f,
-                "the end of the scene after the {objects} objects that its first line announces"
+                "the end of the scene after the {objects} objects that line {line} announces"
             ),
-            Self::Object { number, of } => write!(
-                f,
-                "object {number} of the {of} that the first line announces"
-            ),
+            Self::EndOfScene {
+                objects,
+                follow,
+                line,
+            } => {
+                f.write_str("the end of the scene: ")?;
+                write_counts(f, *line, *objects, *follow)
+            }
+            Self::Object { number, of, line } => {
+                write!(f, "object {number}: ")?;
+                write_counts(f, *line, *of, number.saturating_sub(1))
+            }
             Self::Room {
                 pool,
                 capacity,
@@ -271,6 +290,15 @@ impl fmt::Display for Expected {
             }
         }
     }
+}
+
+/// What is announced, what there is, and what to write.
+fn write_counts(f: &mut fmt::Formatter<'_>, line: u32, said: u32, follow: u32) -> fmt::Result {
+    let plural = if said == 1 { "" } else { "s" };
+    write!(
+        f,
+        "line {line} says {said} object{plural}, {follow} follow: write {follow}"
+    )
 }
 
 impl fmt::Display for Found {

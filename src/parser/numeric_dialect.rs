@@ -39,6 +39,7 @@ pub(super) fn read<T: Scalar + FromDecimal, D: Declared>(
 
     records.begin();
     let objects = records.whole("number of objects", 0, u32::MAX)?;
+    records.count_end = records.behind;
     records.end()?;
 
     records.begin();
@@ -94,11 +95,18 @@ pub(super) fn read<T: Scalar + FromDecimal, D: Declared>(
     }
 
     records.begin();
-    if let Some(word) = records.word() {
+    let too_many = records.peek_word();
+    if !too_many.is_empty() {
+        let follow = objects.saturating_add(records.objects_left());
+        let (line, _) = place(text, records.count_end);
         return Err(records.error_at(
-            word,
-            Expected::EndOfScene { objects },
-            Found::Word(Excerpt::new(word)),
+            too_many,
+            Expected::EndOfScene {
+                objects,
+                follow,
+                line,
+            },
+            Found::Word(Excerpt::new(too_many)),
         ));
     }
     Ok(report)
@@ -140,7 +148,8 @@ fn read_object<T: Scalar + FromDecimal, D: Declared>(
     of: u32,
 ) -> Result<(), ParseError> {
     let Some(first) = records.word() else {
-        return Err(records.error_behind(Expected::Object { number, of }));
+        let (line, _) = place(records.text, records.count_end);
+        return Err(records.error_behind(Expected::Object { number, of, line }));
     };
     let kind = records.digit_of(first, "kind of the object", Range::ObjectKind, 2)?;
     let pool = match kind {
@@ -314,6 +323,9 @@ struct Number<'t, T> {
     word: &'t [u8],
 }
 
+/// U+FEFF in UTF-8.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
 /// Reads a text record by record.
 struct Records<'t> {
     text: &'t [u8],
@@ -321,14 +333,19 @@ struct Records<'t> {
     rest: &'t [u8],
     /// Offset just behind the last word that was read.
     behind: usize,
+    /// The same for the number of objects.
+    count_end: usize,
 }
 
 impl<'t> Records<'t> {
     fn new(text: &'t [u8]) -> Self {
+        // Some editors begin every file with it.
+        let rest = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
         Self {
             text,
-            rest: text,
-            behind: 0,
+            rest,
+            behind: text.len() - rest.len(),
+            count_end: 0,
         }
     }
 
@@ -337,6 +354,25 @@ impl<'t> Records<'t> {
         if let Ok((rest, ())) = lexeme::empty_lines(self.rest) {
             self.rest = rest;
         }
+    }
+
+    /// How many of the lines that are not read yet begin as objects do, up to one that does not.
+    fn objects_left(&self) -> u32 {
+        let mut count = 0_u32;
+        let mut rest = self.rest;
+        while let Ok((behind, Some(word))) = lexeme::word(rest) {
+            if digits(word).is_none_or(|kind| kind > 2) {
+                break;
+            }
+            count = count.saturating_add(1);
+            let end = behind.iter().position(|byte| *byte == b'\n');
+            let next = end.and_then(|end| behind.get(end..)).unwrap_or(&[]);
+            rest = match lexeme::empty_lines(next) {
+                Ok((rest, ())) => rest,
+                Err(_) => break,
+            };
+        }
+        count
     }
 
     /// Ends a record: only blanks and a comment may follow.

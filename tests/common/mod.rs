@@ -9,6 +9,7 @@ pub(crate) mod picture;
 pub(crate) mod quick_reject;
 pub(crate) mod random;
 pub(crate) mod random_texts;
+pub(crate) mod rejection;
 #[path = "settled.rs"]
 pub(crate) mod sampling;
 pub(crate) mod scenes;

@@ -18,7 +18,7 @@ pub fn path(relative: &str) -> PathBuf {
 }
 
 /// The scenes of scenes/ by name, in alphabetical order.
-const SCENES: &[(&str, &[u8])] = &[
+pub(crate) const SCENES: &[(&str, &[u8])] = &[
     ("default", include_bytes!("../../scenes/default.txt")),
     (
         "mirror-room",
@@ -31,34 +31,6 @@ const SCENES: &[(&str, &[u8])] = &[
         include_bytes!("../../scenes/window-room.txt"),
     ),
 ];
-
-/// The scenes that boards draw besides: the stages of the renderer.
-const STAGES: &[(&str, &[u8])] = &[
-    (
-        "stage-1-diffuse-spheres",
-        include_bytes!("../../firmware/scenes/stage-1-diffuse-spheres.txt"),
-    ),
-    (
-        "stage-2-plane-and-shadows",
-        include_bytes!("../../firmware/scenes/stage-2-plane-and-shadows.txt"),
-    ),
-    (
-        "stage-3-mirrors",
-        include_bytes!("../../firmware/scenes/stage-3-mirrors.txt"),
-    ),
-];
-
-/// The hashes of the pictures that the boards drew when firmware/test.sh ran last: a line for each scene.
-pub(crate) const BOARDS_HASHES: &str = include_str!("../../firmware/tables/pictures.txt");
-
-/// The text of a scene that boards draw.
-pub(crate) fn text_on_boards(name: &str) -> Option<&'static [u8]> {
-    let scene = SCENES
-        .iter()
-        .chain(STAGES)
-        .find(|(known, _)| *known == name);
-    scene.map(|(_, text)| *text)
-}
 
 /// The names of all scenes in scenes/, in alphabetical order.
 pub fn names() -> Vec<String> {

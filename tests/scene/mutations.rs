@@ -36,28 +36,30 @@ fn place_of_error<T: FromDecimal>(
     let its_line = mutated.lines().nth(line as usize - 1).unwrap();
     match (replacement, line, column) {
         // Alone in its line: the next record takes its place, and the first that cannot tells.
-        ("", 1, _) => (2, 1),
+        ("", 1, _) => (2, 3),
         ("", 5 | 6, _) => (7, 1),
-        // Without its kind, an object begins with its first coordinate, which is no kind.
-        ("", 8.., 1) => (line, 2),
+        // Without its kind, an object begins with its first coordinate, which may be one.
+        ("", 8.., 1) if !matches!(its_line.split_whitespace().next(), Some("0" | "1" | "2")) => {
+            (line, 3)
+        }
         // One of several: the line is too short, just behind its last number.
         ("", ..) => (line, its_line.trim_end().len() as u32 + 1),
         // No objects: the first is one too many.
         ("0", 1, 1) => (8, 1),
         // A normal without a length; a triangle that becomes a sphere with a long line; a normal so short that
         // the distance divided by its length is infinite.
-        ("0", 13, 7) => (13, 3),
-        ("0", 14, 1) => (14, 71),
-        ("1e-45", 13, 7) => (13, 17),
+        ("0", 13, 6) => (13, 4),
+        ("0", 14, 1) => (14, 63),
+        ("1e-45", 13, 6) => (13, 15),
         // A little refraction, but no index: the last number of the line.
         // A vertex so far away in f64 that all three lie on a line; f32 refuses the number itself.
-        ("1e39", 14, 3..=35) if T::from_decimal(replacement.as_bytes()).is_ok() => (14, 3),
+        ("1e39", 14, 4..=34) if T::from_decimal(replacement.as_bytes()).is_ok() => (14, 4),
         // Refraction, but no index: the last number of the line. (f32 refuses 1e39 itself.)
-        ("1e-45" | "1e39", 8.., 64..)
-            if its_line.ends_with(&format!(" {replacement} 0.0"))
+        ("1e-45" | "1e39", 8.., 40..)
+            if its_line.ends_with(&format!(" {replacement} 0"))
                 && T::from_decimal(replacement.as_bytes()).is_ok() =>
         {
-            (line, its_line.len() as u32 - 2)
+            (line, its_line.len() as u32)
         }
         _ => (line, column),
     }
@@ -67,8 +69,8 @@ fn place_of_error<T: FromDecimal>(
 fn mutate<T: Scalar + FromDecimal>(replacement: &str) -> (u32, u32) {
     let text = String::from_utf8(scenes::text("default")).unwrap();
     let numbers = numbers(&text);
-    // The header, six spheres, planes and a triangle; the light has 8 numbers.
-    assert_eq!(numbers.len(), 1 + 3 + 2 + 8 + 1 + 1 + 3 + 5 * 18 + 18 + 27);
+    // The header with the light of 9 numbers, six spheres, planes and a triangle.
+    assert_eq!(numbers.len(), 1 + 3 + 2 + 9 + 1 + 1 + 3 + 5 * 18 + 18 + 27);
     let (mut drawn, mut refused) = (0, 0);
     for (line, column, place, length) in numbers {
         let mut mutated = text.clone();

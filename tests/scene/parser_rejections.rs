@@ -1,143 +1,8 @@
-//! Every rejection of the scene text: each file of scenes/invalid/ with the message beside it, full pools,
-//! and each field with each number that is none. A rejected text leaves the pools empty.
-//!
-//! `BLESS=1 cargo test --test scene parser_rejections` rewrites the messages; read them before they are
-//! committed.
+//! Rejections of the scene text that need no file: full pools, and each field with each number that is none. A rejected text
+//! leaves the pools empty. Those of scenes/invalid/ are in tests/repository.
 
-use std::path::PathBuf;
-
-use crate::common::{is_blessing, scenes};
-use scanray::{
-    Background, Color, ParseError, Resolution, ScenePools, Vec3,
-    parser::{Expected, Found},
-    pools::Pool,
-};
-
-/// Parses a text into pools that hold another scene; the error, after which the pools must be empty.
-fn rejection(text: &[u8]) -> Result<ParseError, String> {
-    let mut pools = scenes::load::<f32>("default");
-    match pools.parse(text) {
-        Ok(_) => Err(String::from("is accepted")),
-        Err(error) => {
-            let scene = pools.as_scene();
-            let is_empty = scene.object_count() == 0
-                && pools.usage().iter().all(|pool| pool.used == 0)
-                && scene.objects().next().is_none()
-                && scene.camera().position == Vec3::default()
-                && (scene.resolution()
-                    == Resolution {
-                        width: 0,
-                        height: 0,
-                    })
-                && scene.ambient() == 0.0
-                && scene.background() == Background::default();
-            if is_empty {
-                Ok(error)
-            } else {
-                Err(format!("leaves something in the pools: {scene:?}"))
-            }
-        }
-    }
-}
-
-/// Line and column of a byte, both from 1.
-fn place(text: &[u8], offset: usize) -> (u32, u32) {
-    let before = &text[..offset];
-    let line = before.iter().filter(|&&byte| byte == b'\n').count() + 1;
-    let column = before
-        .iter()
-        .rev()
-        .take_while(|&&byte| byte != b'\n')
-        .count()
-        + 1;
-    (line as u32, column as u32)
-}
-
-/// What every rejection promises, whatever is wrong.
-fn check_place(text: &[u8], error: &ParseError) -> Result<(), String> {
-    if error.offset > text.len() {
-        return Err(format!("offset {} is beyond the text", error.offset));
-    }
-    let expected = place(text, error.offset);
-    if (error.line, error.column) != expected {
-        return Err(format!(
-            "offset {} is at {expected:?}: {error}",
-            error.offset
-        ));
-    }
-    let is_number = |byte: u8| !byte.is_ascii_whitespace() && byte != b'#';
-    let (before, after) = text.split_at(error.offset);
-    let starts_word = after.first().is_some_and(|&b| is_number(b))
-        && !before.last().is_some_and(|&b| is_number(b));
-    let follows_word = before.last().is_some_and(|&b| is_number(b));
-    let nothing_before = before.is_empty();
-    let is_right = match error.found {
-        Found::EndOfLine | Found::EndOfText => follows_word || nothing_before,
-        _ => starts_word,
-    };
-    if is_right {
-        Ok(())
-    } else {
-        Err(format!("points into the middle of something: {error}"))
-    }
-}
-
-#[test]
-fn every_invalid_scene_has_its_message() {
-    let mut files: Vec<PathBuf> = std::fs::read_dir(scenes::path("scenes/invalid"))
-        .unwrap()
-        .map(|entry| entry.unwrap().path())
-        .collect();
-    files.sort();
-    let mut count = 0;
-    let mut failures = Vec::new();
-    for file in &files {
-        let name = file.file_name().unwrap().to_str().unwrap();
-        let mut fail = |what: String| failures.push(format!("scenes/invalid/{name} {what}"));
-        match file.extension().and_then(|extension| extension.to_str()) {
-            Some("txt") => {}
-            Some("expected") => {
-                if !file.with_extension("txt").exists() {
-                    fail(String::from("has no .txt beside it"));
-                }
-                continue;
-            }
-            _ => {
-                fail(String::from("is neither a .txt nor a .expected"));
-                continue;
-            }
-        }
-        count += 1;
-        let text = std::fs::read(file).unwrap();
-        let error = match rejection(&text) {
-            Ok(error) => error,
-            Err(what) => {
-                fail(what);
-                continue;
-            }
-        };
-        if let Err(what) = check_place(&text, &error) {
-            fail(what);
-        }
-        let actual = format!("{error}\n");
-        let message = file.with_extension("expected");
-        if is_blessing() {
-            std::fs::write(&message, actual).unwrap();
-            continue;
-        }
-        match std::fs::read_to_string(&message) {
-            Ok(expected) if expected == actual => {}
-            Ok(expected) => fail(format!("\n  says:     {actual}  expected: {expected}")),
-            Err(_) => fail(String::from("has no .expected beside it")),
-        }
-    }
-    assert!(
-        failures.is_empty(),
-        "\n{}\nIf the messages are right, accept them with\n    BLESS=1 cargo test --test scene parser_rejections\n",
-        failures.join("\n")
-    );
-    assert!(count > 100, "only {count} files in scenes/invalid/");
-}
+use crate::common::rejection::{check_place, rejection};
+use scanray::{Color, ScenePools, parser::Expected, pools::Pool};
 
 const HEADER: &str = "\
 0.0 0.0 0.0
@@ -417,4 +282,16 @@ fn colors_and_intensities_above_one_are_accepted() {
     let material = scene.material(scene.spheres()[0].info());
     assert_eq!(material.ambient, Color::new(1.5, 2.5, 3.5));
     assert_eq!(material.reflection, 1.2);
+}
+
+#[test]
+fn a_byte_order_mark_is_skipped_at_the_start_alone() {
+    let text = scene_of(&[sphere(1)]);
+    let mut pools = ScenePools::<f32>::new();
+    pools.parse(format!("\u{feff}{text}").as_bytes()).unwrap();
+    assert_eq!(pools.as_scene().object_count(), 1);
+    let error = rejection(text.replace("\n64", "\n\u{feff}64").as_bytes()).unwrap();
+    assert_eq!((error.line, error.column), (3, 1));
+    let error = rejection("\u{feff}".as_bytes()).unwrap();
+    assert_eq!((error.line, error.column, error.offset), (1, 4, 3));
 }

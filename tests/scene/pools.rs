@@ -86,7 +86,7 @@ fn what_is_not_named_takes_no_room_and_is_an_error_that_says_so() {
     let error = opaque.parse(TEXT).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "line 9, column 64: expected the refraction: 0, because the pools are declared without refraction; found `0.7`",
+        "line 9, column 56: expected the refraction: 0, because the pools are declared without refraction; found `0.7`",
     );
     assert_eq!(opaque.as_scene().object_count(), 0);
 

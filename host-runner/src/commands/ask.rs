@@ -9,7 +9,7 @@ use embedded_graphics::pixelcolor::Rgb888;
 use scanray::{DEFAULT_MAX_DEPTH, Picture, render::Exact};
 
 use crate::canvas::Canvas;
-use crate::console::{print, say};
+use crate::console::{print, say, shown};
 use crate::failure::Failure;
 use crate::host_pixels::Drawing;
 use crate::host_tracer::HostTracer;
@@ -20,7 +20,7 @@ use crate::parallel_drawing::{Parts, Workers};
 use crate::pools::HostScalar;
 use crate::progress::Progress;
 use crate::scene_file::SceneSource;
-use crate::scene_listing;
+use crate::scene_listing::{self, Digits};
 
 /// Where the picture goes.
 const OUTPUT: &str = "output.ppm";
@@ -98,7 +98,7 @@ fn draw(source: &SceneSource) -> Result<(), Failure> {
     let scene = pools.as_scene();
     print(|out| {
         writeln!(out)?;
-        scene_listing::write(out, &scene)?;
+        scene_listing::write(out, &scene, Digits::AsPublished)?;
         writeln!(out)
     })?;
     let output = Path::new(OUTPUT);
@@ -116,8 +116,6 @@ fn draw(source: &SceneSource) -> Result<(), Failure> {
         let size = [size.width, size.height];
         image::write(ImageFormat::Ppm, file, size, None, &mut rows)
     })?;
-    let folder = std::env::current_dir().map_or("this folder".to_owned(), |folder| {
-        folder.display().to_string()
-    });
+    let folder = std::env::current_dir().map_or("this folder".to_owned(), shown);
     print(|out| writeln!(out, "Image file {OUTPUT} saved in {folder}"))
 }

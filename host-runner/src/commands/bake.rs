@@ -23,7 +23,7 @@ The source is an expression of type scanray::Scene<'static>. A firmware writes
   static SCENE: scanray::Scene<'static> = include!(\"scene.rs\");
   let tracer = scanray::tracer_for!(SCENE);
 
-and has the scene in flash, with all that loading computes, and only the stages that it needs. A build script can do the
+and has the scene in flash, with all that loading computes, and only the stages that it needs. A build script can do the \
 same with scanray::bake.
 
 Examples:

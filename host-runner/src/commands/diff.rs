@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 
 use crate::compare::{Comparison, DEFAULT_PIXELS_PER_DEGREE, flip_picture, level_picture};
-use crate::console::{print, say};
+use crate::console::{print, say, shown};
 use crate::failure::Failure;
 use crate::image::{self, Image, ImageFormat};
 use crate::option_values::whole;
@@ -153,10 +153,10 @@ pub(crate) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     if (reference.width, reference.height) != (test.width, test.height) {
         return Err(Failure::Usage(format!(
             "the pictures have different sizes: {} is {}x{}, {} is {}x{}; draw both with the same --size",
-            args.reference.display(),
+            shown(&args.reference),
             reference.width,
             reference.height,
-            args.test.display(),
+            shown(&args.test),
             test.width,
             test.height
         )));
@@ -169,8 +169,8 @@ pub(crate) fn run(args: &DiffArgs) -> Result<ExitCode, Failure> {
     )?;
     let comparison = Comparison::of(&reference, &test, args.pixels_per_degree);
     let measures = Measures {
-        reference: args.reference.display().to_string(),
-        test: args.test.display().to_string(),
+        reference: args.reference.to_string_lossy().into_owned(),
+        test: args.test.to_string_lossy().into_owned(),
         width: reference.width,
         height: reference.height,
         pixels: comparison.pixels(),

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::Args;
 use scanray::DEFAULT_MAX_DEPTH;
 
-use crate::console::{print, say};
+use crate::console::{print, say, shown};
 use crate::failure::Failure;
 use crate::option_values::{ScalarName, Size, max_depth};
 use crate::output_files::Place;
@@ -114,7 +114,7 @@ fn place(output: &Path) -> Result<Option<Place>, Failure> {
     if !is_pov {
         return Err(Failure::Usage(format!(
             "-o {}: the name must end in .pov, for POV-Ray",
-            output.display()
+            shown(output)
         )));
     }
     Place::file(output).map(Some)

@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use annotate_snippets::Renderer;
 use clap::Args;
 
 use crate::canonical_text::canonical;
-use crate::console::{print, say};
+use crate::console::{print, say, shown};
 use crate::failure::Failure;
 use crate::option_values::ScalarName;
 use crate::output_files::Place;
@@ -55,7 +56,7 @@ pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, Failure> {
     if let (Some(output), [_, _, ..]) = (&args.output, &*args.scenes) {
         return Err(Failure::Usage(format!(
             "-o {} cannot take {} scenes: leave -o out to rewrite each in its place",
-            output.display(),
+            shown(output),
             args.scenes.len()
         )));
     }
@@ -90,7 +91,8 @@ fn format_one<T: HostScalar>(path: &PathBuf, args: &FmtArgs) -> Result<ExitCode,
             .map_err(|error| Failure::Scene(format!("error: {}: {error}", source.name())))
     };
     let before = print_scene(&pools)?;
-    source.load_text(&tidy, &mut pools)?;
+    // Its warnings were told.
+    source.parse(&tidy, &mut pools, &Renderer::plain())?;
     if print_scene(&pools)? != before {
         return Err(Failure::Scene(format!(
             "error: {}: the canonical form would be another scene, which is a fault of this program; the file is as \

@@ -8,7 +8,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use crate::console::say;
+use crate::console::{say, shown};
 use crate::failure::Failure;
 use crate::image::{self, Animation, Image, ImageFormat, require_gif_memory};
 use crate::option_values::centiseconds;
@@ -135,7 +135,7 @@ impl<'a> Part<'a> {
     }
 
     fn name(&self) -> String {
-        self.path.display().to_string()
+        shown(self.path)
     }
 
     fn refuse_unless_of_the_same(&self, first: &Self) -> Result<(), Failure> {

@@ -7,7 +7,7 @@ use clap::{Args, Command};
 use clap_mangen::Man;
 use roff::{Roff, roman};
 
-use crate::console::{print, say};
+use crate::console::{print, say, shown};
 use crate::failure::Failure;
 use crate::output_files::Place;
 
@@ -41,17 +41,14 @@ pub fn run(args: &ManArgs, program: Command) -> Result<ExitCode, Failure> {
         if !folder.is_dir() {
             return Err(Failure::Files(format!(
                 "there is no folder {}: create it first",
-                folder.display()
+                shown(folder)
             )));
         }
         let count = pages.len();
         for (name, page) in pages {
             Place::file(&folder.join(format!("{name}.1")))?.write(|file| file.write_all(&page))?;
         }
-        say(format_args!(
-            "{count} pages written to {}",
-            folder.display()
-        ));
+        say(format_args!("{count} pages written to {}", shown(folder)));
         return Ok(ExitCode::SUCCESS);
     }
     let name = match &args.command {

@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use scanray::{Resolution, Stages};
 use serde::Serialize;
 
-use crate::console::print;
+use crate::console::{print, shown};
 use crate::device_memory::DeviceMemory;
 use crate::displays;
 use crate::failure::Failure;
@@ -107,7 +107,7 @@ fn tell<T: HostScalar>(
     };
     let pools_type = memory.pools_type(T::NAME);
     let report = Report {
-        scene: source.name(),
+        scene: source.data_name(),
         objects: scene.object_count(),
         scalar: T::NAME,
         max_depth: settings.max_depth,
@@ -150,7 +150,12 @@ impl Report {
     fn write(&self, out: &mut dyn Write, color: &str) -> io::Result<()> {
         let memory = &self.memory;
         let plural = if self.objects == 1 { "" } else { "s" };
-        writeln!(out, "{}: {} object{plural}", self.scene, self.objects)?;
+        writeln!(
+            out,
+            "{}: {} object{plural}",
+            shown(&self.scene),
+            self.objects
+        )?;
         writeln!(out, "stages: {}", self.stages.join(", "))?;
 
         writeln!(

@@ -114,7 +114,11 @@ fn tell<T: HostScalar>(args: &PixelArgs, settings: &PictureSettings) -> Result<(
         }
     }
     let tracer = HostTracer::new(scene, size, settings.max_depth)?.with_knobs(settings.knobs);
-    let (lines, file) = (object_lines(&text), source.name());
+    let lines = object_lines(&text);
+    let file = match args.json {
+        true => source.data_name(),
+        false => source.name(),
+    };
     let names = Names {
         scene: &scene,
         file: &file,

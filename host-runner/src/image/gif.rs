@@ -4,16 +4,10 @@ use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
 use std::io::{self, Write};
 
-use color_quant::NeuQuant;
 use gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 
+use super::palette::{PLACES, nearest, palette};
 use crate::picture_memory::{Shortage, require, room};
-
-/// Colours of a palette.
-const PALETTE: usize = 256;
-
-/// About as many pixels are looked at when a palette is chosen: all that small displays have.
-const LOOKED_AT: usize = 1 << 18;
 
 /// All colours of 8 bits a channel.
 const COLORS: usize = 1 << 24;
@@ -73,7 +67,7 @@ impl<'w> Animation<'w> {
     }
 
     /// Appends a picture: all its rows, three bytes a pixel. Up to 256 different colours are kept exactly;
-    /// more become the 256 that a neural network settles on.
+    /// more become the 256 that lie nearest to all.
     ///
     /// # Errors
     ///
@@ -126,7 +120,7 @@ fn io_error(error: EncodingError) -> io::Error {
 fn exact(rgba: &[u8], indices: &mut Vec<u8>) -> Option<Vec<u8>> {
     let mut colors = BTreeSet::new();
     for pixel in rgba.chunks_exact(4) {
-        if colors.insert(pixel) && colors.len() > PALETTE {
+        if colors.insert(pixel) && colors.len() > PLACES {
             return None;
         }
     }
@@ -138,20 +132,22 @@ fn exact(rgba: &[u8], indices: &mut Vec<u8>) -> Option<Vec<u8>> {
 
 /// 256 colours near all others, and the index of the one nearest to each pixel.
 fn approximate(rgba: &[u8], indices: &mut Vec<u8>) -> Result<Vec<u8>, Shortage> {
-    let sampling = (rgba.len() / 4).div_ceil(LOOKED_AT).clamp(1, 30);
-    let network = NeuQuant::new(sampling as i32, PALETTE, rgba);
+    let pixels = rgba
+        .chunks_exact(4)
+        .map(|pixel| [pixel[0], pixel[1], pixel[2]]);
     // One more than the index of each colour that was met before.
     require(2 * COLORS as u64, "a GIF of many colours", REMEDY)?;
     let mut known = vec![0_u16; COLORS];
-    indices.extend(rgba.chunks_exact(4).map(|pixel| {
-        let [r, g, b] = [pixel[0], pixel[1], pixel[2]].map(usize::from);
+    let palette = palette(pixels.clone());
+    indices.extend(pixels.map(|rgb| {
+        let [r, g, b] = rgb.map(usize::from);
         let known = &mut known[r << 16 | g << 8 | b];
         if *known == 0 {
-            *known = 1 + network.index_of(pixel) as u16;
+            *known = 1 + nearest(&palette, rgb) as u16;
         }
         (*known - 1) as u8
     }));
-    Ok(network.color_map_rgb())
+    Ok(palette.concat())
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! Image files: written row by row, read whole.
 
 mod gif;
+mod palette;
 mod png;
 mod ppm;
 
@@ -10,6 +11,7 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 
 pub(crate) use self::gif::{Animation, require_memory as require_gif_memory};
+use crate::console::shown;
 use crate::failure::Failure;
 
 /// A kind of image file.
@@ -76,7 +78,7 @@ impl Image {
         let name = if is_stdin {
             "<stdin>".into()
         } else {
-            path.display().to_string()
+            shown(path)
         };
         let cannot = |why: &dyn Display| Failure::Files(format!("cannot read {name}: {why}"));
         let mut bytes = Vec::new();

@@ -7,6 +7,9 @@ use png::{BitDepth, ColorType, Decoder, Encoder, Transformations};
 use super::{Image, SMALLER};
 use crate::picture_memory::room;
 
+/// What a picture looks like with pixels that are not opaque depends on what is behind.
+const TRANSLUCENT: &str = "it has transparent pixels; flatten it onto a colour first";
+
 /// The keyword of a text chunk.
 const COMMENT: &str = "Comment";
 
@@ -40,14 +43,14 @@ pub(super) fn comment(bytes: &[u8]) -> Option<String> {
     Some(chunk.text.clone())
 }
 
-/// Reads a PNG of any kind: grey and palettes become colours, 16 bits are cut to 8.
+/// Reads a PNG of any kind: grey and palettes become colours, 16 bits are rounded to 8.
 ///
 /// # Errors
 ///
 /// A sentence, also for pixels that are not opaque: what they look like depends on what is behind.
 pub(super) fn read(bytes: &[u8]) -> Result<Image, String> {
     let mut decoder = Decoder::new(Cursor::new(bytes));
-    decoder.set_transformations(Transformations::normalize_to_color8());
+    decoder.set_transformations(Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
     let size = reader
         .output_buffer_size()
@@ -58,6 +61,26 @@ pub(super) fn read(bytes: &[u8]) -> Result<Image, String> {
         .next_frame(&mut samples)
         .map_err(|error| error.to_string())?;
     samples.truncate(frame.buffer_size());
+    if frame.bit_depth == BitDepth::Sixteen {
+        // An alpha that is only nearly opaque must not become so.
+        let level = |sample: &[u8]| {
+            let value = u32::from(sample[0]) << 8 | u32::from(sample[1]);
+            ((value * 255 + 32_767) / 65_535) as u8
+        };
+        let is_translucent = |pixel: &[u8]| pixel[pixel.len() - 2..] != [u8::MAX; 2];
+        let has_alpha = matches!(
+            frame.color_type,
+            ColorType::GrayscaleAlpha | ColorType::Rgba
+        );
+        if has_alpha
+            && samples
+                .chunks_exact(2 * frame.color_type.samples())
+                .any(is_translucent)
+        {
+            return Err(TRANSLUCENT.to_owned());
+        }
+        samples = samples.chunks_exact(2).map(level).collect();
+    }
     let gray = |gray: u8| [gray; 3];
     let (channels, has_alpha) = match frame.color_type {
         ColorType::Grayscale => (1, false),
@@ -69,7 +92,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Image, String> {
     };
     let pixels = samples.chunks_exact(channels);
     if has_alpha && pixels.clone().any(|pixel| pixel[channels - 1] != u8::MAX) {
-        return Err("it has transparent pixels; flatten it onto a colour first".to_owned());
+        return Err(TRANSLUCENT.to_owned());
     }
     let rgb888 = match channels {
         3 => samples,
@@ -121,8 +144,16 @@ mod tests {
                 ColorType::Rgb,
                 Sixteen,
                 None,
-                &[1, 0, 2, 0, 3, 0, 4, 0, 5, 0, 6, 0],
+                // 257 to a level of 8 bits, so that 128 more are nearer to it, 129 to the next.
+                &[1, 1, 2, 130, 2, 131, 4, 4, 4, 133, 6, 134],
                 colors,
+            ),
+            (
+                ColorType::GrayscaleAlpha,
+                Sixteen,
+                None,
+                &[8, 137, 255, 255, 200, 72, 255, 255],
+                grays,
             ),
             (
                 ColorType::Indexed,
@@ -160,6 +191,14 @@ mod tests {
             BitDepth::Eight,
             None,
             &[9, 255, 0, 254],
+        );
+        assert!(read(&file).unwrap_err().contains("transparent"));
+        // Not quite opaque.
+        let file = encode(
+            ColorType::GrayscaleAlpha,
+            BitDepth::Sixteen,
+            None,
+            &[9, 9, 255, 255, 0, 0, 255, 254],
         );
         assert!(read(&file).unwrap_err().contains("transparent"));
     }

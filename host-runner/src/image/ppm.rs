@@ -62,9 +62,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Image, String> {
             .ok_or_else(|| format!("the PPM has the value {sample}, but its largest is {maximum}"))
     };
     let samples: Vec<u8> = if is_binary {
-        // One blank stands between the header and the samples, which may themselves look like blanks.
         let wide = 1 + usize::from(maximum > 255);
-        let samples = rest.get(1..1 + count * wide).ok_or_else(too_short)?;
+        let samples = raster(rest, count * wide).ok_or_else(too_short)?;
         let value = |sample: &[u8]| {
             sample
                 .iter()
@@ -94,6 +93,25 @@ pub(super) fn read(bytes: &[u8]) -> Result<Image, String> {
     })
 }
 
+/// From the end of a line on.
+fn behind_comment(text: &[u8]) -> &[u8] {
+    let end = text.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
+    &text[end.unwrap_or(text.len())..]
+}
+
+/// The bytes of the samples behind the header's last number: one blank stands between them, and the samples may themselves
+/// look like blanks. A comment right behind the number belongs to the header. The line's end that ends it is the blank, as
+/// netpbm reads it; where the file has a byte more than that, it is the blank behind it, as netpbm's specification has it.
+fn raster(mut rest: &[u8], length: usize) -> Option<&[u8]> {
+    if rest.first() == Some(&b'#') {
+        rest = behind_comment(rest);
+        if rest.len() == length + 2 && rest[1].is_ascii_whitespace() {
+            rest = &rest[1..];
+        }
+    }
+    rest.get(1..)?.get(..length)
+}
+
 /// Takes blanks, comments and a decimal number; `None` if there is none.
 fn next_number(rest: &mut &[u8]) -> Option<usize> {
     loop {
@@ -101,11 +119,7 @@ fn next_number(rest: &mut &[u8]) -> Option<usize> {
         if rest.first() != Some(&b'#') {
             break;
         }
-        let end = rest
-            .iter()
-            .position(|byte| *byte == b'\n')
-            .unwrap_or(rest.len());
-        *rest = &rest[end..];
+        *rest = behind_comment(rest);
     }
     let length = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
     let (digits, behind) = rest.split_at(length);
@@ -126,6 +140,10 @@ mod tests {
             b"P6 # two\n#\n2\t# wide\r\n1\n255 \n #\x04\x05\x06",
             b"P6 2 1 255\n\n #\x04\x05\x06P6 2 1 255\n second",
             b"P6 2 1 65535\n\x0a\x0a\x20\x20\x23\x23\x04\x04\x05\x05\x06\x06",
+            // A comment right behind the last number, as netpbm reads it and as its specification has it.
+            b"P6 2 1 255# one\n\n #\x04\x05\x06",
+            b"P6 2 1 255# one\n\n\n #\x04\x05\x06",
+            b"P6 2 1# two\r255#\r\n #\x04\x05\x06",
             b"P3\n2 1 255\n10 32 35 # one\n4 5 6\n",
             b"P3 2 1 51 2 6 7 1 1 1",
         ] {

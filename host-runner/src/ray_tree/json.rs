@@ -1,49 +1,16 @@
 //! The tree of rays for programs.
 
 use scanray::{
-    Color, Ray, Scalar, Vec3,
+    Color, Ray, Scalar,
     ray::ObjectNumber,
     tracer::{LightAtHit, RayKind},
 };
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use super::text::Names;
 use super::{HitNode, LightNode, RayNode};
+use crate::json_numbers::{Number, Triple, color, number, vector};
 use crate::knobs::Knobs;
-
-/// A number with the fewest digits that read back to the same bits of its type.
-#[derive(Clone, Copy, Debug)]
-struct Number {
-    value: f64,
-    is_single: bool,
-}
-
-impl Serialize for Number {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        if self.is_single {
-            to.serialize_f32(self.value as f32)
-        } else {
-            to.serialize_f64(self.value)
-        }
-    }
-}
-
-type Triple = [Number; 3];
-
-fn number<T: Scalar>(value: T) -> Number {
-    Number {
-        value: value.to_f64(),
-        is_single: T::NAME == "f32",
-    }
-}
-
-fn vector<T: Scalar>(v: Vec3<T>) -> Triple {
-    [v.x, v.y, v.z].map(number)
-}
-
-fn color<T: Scalar>(c: Color<T>) -> Triple {
-    [c.r, c.g, c.b].map(number)
-}
 
 /// A pixel, its colours and its rays.
 #[derive(Clone, Debug, Serialize)]

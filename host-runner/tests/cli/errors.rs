@@ -202,7 +202,7 @@ fn scene_errors_show_the_place() {
             (8, sphere.len() as u32 + 1),
             sphere,
             &(" ".repeat(sphere.len()) + "^"),
-            "expected object 2 of the 2 that the first line announces; found the end of the text",
+            "expected object 2: line 1 says 2 objects, 1 follow: write 1; found the end of the text",
         ),
         (String::new(), (1, 1), "", "^", "found the end of the text"),
     ] {
@@ -261,7 +261,7 @@ fn every_rejection_is_shown_at_its_place() {
 }
 
 #[test]
-fn marks_of_byte_order_are_named_with_a_remedy() {
+fn unreadable_encodings_are_named_with_a_remedy() {
     let folder = Folder::new();
     let utf16: Vec<u8> = [0xFEFF]
         .into_iter()
@@ -270,8 +270,8 @@ fn marks_of_byte_order_are_named_with_a_remedy() {
         .collect();
     for (text, words) in [
         (
-            format!("\u{feff}{SMALL_SCENE}").into_bytes(),
-            "byte-order mark (BOM); save it as UTF-8 without one",
+            SMALL_SCENE.replace('\n', "\r").into_bytes(),
+            "carriage returns (CR) for line ends; save it with LF or CRLF",
         ),
         (utf16, "the file is UTF-16; save it as UTF-8"),
     ] {
@@ -279,6 +279,69 @@ fn marks_of_byte_order_are_named_with_a_remedy() {
         let said = folder.fail(3, &["inspect", "scene.txt"]);
         assert!(said.contains(words), "{said}");
     }
+}
+
+#[test]
+fn a_word_behind_an_option_without_the_sign_of_equality_is_told() {
+    let folder = Folder::new();
+    folder.write("scene.txt", SMALL_SCENE);
+    for (code, arguments) in [
+        (4, &["render", "--dither", "off"][..]),
+        (4, &["render", "scene.txt", "--dither", "off"]),
+        (4, &["view", "--dither", "off"]),
+        (2, &["pixel", "scene.txt", "--dither", "off", "4,3"]),
+    ] {
+        let run = folder.run(arguments);
+        let said = run.stderr;
+        assert_eq!(run.code, code, "{arguments:?}: {said}");
+        assert!(
+            said.contains("if it is meant for --dither, write --dither=off"),
+            "{arguments:?}: {said}"
+        );
+    }
+    // A scene may stand there, and a file of that name.
+    folder.succeed(&["render", "--dither", "scene.txt"]);
+    let said = folder.fail(4, &["render", "off"]);
+    assert!(!said.contains("--dither"), "{said}");
+}
+
+#[test]
+fn of_repeated_options_the_last_holds() {
+    let folder = Folder::new();
+    let drawn = folder.draw(&[
+        "--size",
+        "9x9",
+        "--dither",
+        "--size",
+        "4x3",
+        "--dither=off",
+        "--scalar",
+        "f64",
+        "--scalar=f32",
+    ]);
+    assert!(drawn == folder.draw(&["--size", "4x3"]));
+    let twice = folder.succeed(&["needs", "--json", "--json"]).stdout;
+    assert!(twice == folder.succeed(&["needs", "--json"]).stdout);
+    // Those that take several values keep them all.
+    folder.write("a.txt", SMALL_SCENE);
+    let two = folder
+        .succeed(&["pixel", "a.txt", "4,3", "4,4", "--json"])
+        .stdout;
+    assert_eq!(two.iter().filter(|byte| **byte == b'\n').count(), 2);
+}
+
+#[test]
+fn a_byte_order_mark_at_the_start_is_skipped() {
+    let folder = Folder::new();
+    folder.write("plain.txt", SMALL_SCENE);
+    folder.write("scene.txt", format!("\u{feff}{SMALL_SCENE}"));
+    assert!(folder.draw(&["scene.txt"]) == folder.draw(&["plain.txt"]));
+    let canonical = |name| folder.succeed(&["fmt", "-o", "-", name]).stdout;
+    assert!(canonical("scene.txt") == canonical("plain.txt"));
+    // As editors count, which do not show it.
+    folder.write("scene.txt", format!("\u{feff}x{SMALL_SCENE}"));
+    let said = folder.fail(3, &["inspect", "scene.txt"]);
+    assert!(said.contains("scene.txt:1:1"), "{said}");
 }
 
 /// Tabs before a place in a file.
@@ -316,10 +379,13 @@ fn control_characters_of_a_scene_do_not_reach_the_terminal() {
 #[test]
 fn the_light_of_8_numbers_is_worth_a_warning() {
     let folder = Folder::new();
-    let path = scene("default");
-    let run = folder.succeed(&["inspect", &path]);
-    let warning = format!("warning: {path}:4: the light has 8 numbers instead of 9");
-    assert!(run.stderr.starts_with(&warning), "{}", run.stderr);
+    folder.write(
+        "short.txt",
+        SMALL_SCENE.replace("1 1 1  1 1 1\n", "1 1 1  1 1\n"),
+    );
+    let run = folder.succeed(&["inspect", "short.txt"]);
+    let warning = "warning: short.txt:4: the light has 8 numbers instead of 9";
+    assert!(run.stderr.starts_with(warning), "{}", run.stderr);
     folder.write("small.txt", SMALL_SCENE);
     assert_eq!(folder.succeed(&["inspect", "small.txt"]).stderr, "");
 }
@@ -339,10 +405,78 @@ fn a_bad_scene_does_not_keep_the_others_from_being_drawn() {
 }
 
 #[test]
+fn sentences_of_help_have_no_line_break_in_them() {
+    let folder = Folder::new();
+    let commands = folder.succeed(&["--help"]).stdout;
+    let commands = String::from_utf8(commands).unwrap();
+    let (_, commands) = commands.split_once("Commands:\n").unwrap();
+    let (commands, _) = commands.split_once("\n\n").unwrap();
+    let names = commands
+        .lines()
+        .filter_map(|line| line.split_whitespace().next());
+    let mut broken = Vec::new();
+    for name in names.filter(|name| *name != "help") {
+        // So wide that nothing is wrapped.
+        let output = folder
+            .program(&[name, "--help"])
+            .env("COLUMNS", "1000")
+            .output()
+            .unwrap();
+        let help = String::from_utf8(output.stdout).unwrap();
+        let lines: Vec<_> = help.lines().collect();
+        for pair in lines.windows(2) {
+            let is_text = |line: &str| line.starts_with(|c: char| c.is_alphanumeric() || c == '`');
+            let goes_on =
+                pair[1].starts_with(|c: char| c.is_lowercase()) && !pair[1].contains("  ");
+            if is_text(pair[0]) && is_text(pair[1]) && goes_on {
+                broken.push(format!("{name}: {}\n{}", pair[0], pair[1]));
+            }
+        }
+    }
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
+}
+
+#[test]
 fn help_has_examples() {
     let folder = Folder::new();
     for arguments in [&["--help"][..], &["render", "--help"], &["help", "inspect"]] {
         let help = String::from_utf8(folder.succeed(arguments).stdout).unwrap();
         assert!(help.contains("Examples:\n  scanray"), "{help}");
+    }
+}
+
+#[test]
+fn what_is_hardly_meant_is_worth_a_warning() {
+    let folder = Folder::new();
+    let bright = SMALL_SCENE.replace(".8 .2 .2", "255 51 51");
+    folder.write("bright.txt", bright);
+    let warning = "warning: bright.txt:8: the diffuse colour 255 51 51 looks like levels of 0 to 255, but 1 is full intensity: \
+                   write 1 0.2 0.2\n";
+    for command in [
+        &["inspect", "bright.txt"][..],
+        &["fmt", "--check", "bright.txt"],
+        &["render", "bright.txt", "-o", "x.ppm"],
+    ] {
+        let said = folder.run(command).stderr;
+        assert_eq!(said.matches(warning).count(), 1, "{command:?}: {said}");
+    }
+    folder.write("inside.txt", SMALL_SCENE.replace("0 0 3  1", "0 0 0.5  1"));
+    let said = folder.succeed(&["inspect", "inside.txt"]).stderr;
+    assert!(
+        said.starts_with("warning: inside.txt:8: the camera is inside of this sphere"),
+        "{said}"
+    );
+    for name in [
+        "default",
+        "mirror-room",
+        "pyramids",
+        "reflective",
+        "window-room",
+    ] {
+        assert_eq!(
+            folder.succeed(&["inspect", &scene(name)]).stderr,
+            "",
+            "{name}"
+        );
     }
 }

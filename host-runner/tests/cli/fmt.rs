@@ -137,3 +137,21 @@ fn a_scene_with_an_error_is_left_as_it_is() {
     assert_eq!(folder.read("good.txt"), CANONICAL.as_bytes());
     assert_eq!(folder.names(), ["bad.txt", "good.txt"]);
 }
+
+#[test]
+fn the_scenes_that_come_with_it_are_in_canonical_form() {
+    let folder = Folder::new();
+    for name in [
+        "default",
+        "mirror-room",
+        "pyramids",
+        "reflective",
+        "window-room",
+    ] {
+        let run = folder.succeed(&["fmt", "--check", &scene(name)]);
+        assert_eq!(run.stderr, "", "{name}");
+    }
+    let example = folder.succeed(&["example"]).stdout;
+    folder.write("example.txt", example);
+    folder.succeed(&["fmt", "--check", "example.txt"]);
+}

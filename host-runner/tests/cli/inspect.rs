@@ -1,6 +1,19 @@
-//! The listing of a scene.
+//! The listing of a scene: with the published digits, which `ask` prints, and with all that are stored.
+
+use serde_json::{Value, json};
 
 use crate::program::{Folder, SMALL_SCENE, scene};
+
+/// The listing that `ask` prints of a scene's file.
+#[track_caller]
+fn published(folder: &Folder, name: &str) -> String {
+    let run = folder.run_with_input(&["ask"], format!("0\n{name}\n").as_bytes());
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let said = String::from_utf8(run.stdout).unwrap();
+    let (_, listing) = said.split_once("\nSCENE DATA\n").unwrap();
+    let (listing, _) = listing.split_once("\n\n").unwrap();
+    format!("SCENE DATA\n{listing}\n")
+}
 
 /// The listing of the published example, as published.
 const DEFAULT_LISTING: &str = "\
@@ -26,15 +39,10 @@ TRIANGLE: T1(2.00, 0.50, 2.50), T2(3.00, 0.50, 1.50), T3(2.50, 1.50, 2.00), norm
 #[test]
 fn lists_the_published_example_as_published() {
     let folder = Folder::new();
-    let path = scene("default");
-    for arguments in [
-        &["inspect"][..],
-        &["inspect", &path],
-        &["inspect", &path, "--scalar", "f64"],
-    ] {
-        let run = folder.succeed(arguments);
-        assert_eq!(String::from_utf8(run.stdout).unwrap(), DEFAULT_LISTING);
-    }
+    assert_eq!(published(&folder, &scene("default")), DEFAULT_LISTING);
+    // The program has the same scene.
+    let own = folder.succeed(&["inspect"]).stdout;
+    assert!(own == folder.succeed(&["inspect", &scene("default")]).stdout);
 }
 
 #[test]
@@ -47,7 +55,7 @@ fn keeps_the_order_of_the_file_and_prints_no_minus_zero() {
          2  0 0 0  1 0 0  0 1 0  9 9 9 9  {material}\n\
          0  -0.004 -0.006 12345.678  .125  {material}\n"
     );
-    let run = folder.run_with_input(&["inspect", "-"], scene.as_bytes());
+    folder.write("scene.txt", scene);
     let material = "diffuse(0.00, 0.00, 0.00), specular(0.00, 0.00, 0.00), ambient(0.00, 0.00, 0.00), \
                     reflection=0.00, shininess=1000000.00, refraction=0.00, indexOfRefraction=0.00";
     let expected = format!(
@@ -66,8 +74,74 @@ fn keeps_the_order_of_the_file_and_prints_no_minus_zero() {
          normal(0.00, 0.00, -1.00), distance=0.00, {material}\n\
          SPHERE: centre(0.00, -0.01, 12345.68), radius=0.12, {material}\n"
     );
-    assert_eq!(String::from_utf8(run.stdout).unwrap(), expected);
-    assert_eq!((run.code, &*run.stderr), (0, ""));
+    assert_eq!(published(&folder, "scene.txt"), expected);
+}
+
+/// A scene with numbers that two decimals cut, f32 rounds, or that are 0 with a sign.
+const PRECISE_SCENE: &str = "\
+2
+0 -0 1e-7
+8 6
+5 5 -5  1 1 1  1 1 1
+0.1
+0
+0.3333333333333333 0 16777217
+0  0.004 -12345.678 3  0.001  .8 .2 .2  .5 .5 .5  1 1 1  0 50 0 1.0001
+2  0 0 0  1 0 0  0 1 0  9 9 9 9  .8 .2 .2  .5 .5 .5  1 1 1  0 50 0 0
+";
+
+#[test]
+fn prints_what_is_stored() {
+    let folder = Folder::new();
+    folder.write("scene.txt", PRECISE_SCENE);
+    let lines = |options: &[&str]| {
+        let run = folder.succeed(&[&["inspect", "scene.txt"], options].concat());
+        assert_eq!(run.stderr, "");
+        let listing = String::from_utf8(run.stdout).unwrap();
+        listing.lines().map(str::to_owned).collect::<Vec<_>>()
+    };
+    let single = lines(&[]);
+    assert_eq!(single[2], "Camera Position: (0, -0, 1e-7)");
+    assert_eq!(single[9], "Background Colour: (0.33333334, 0, 16777216)");
+    assert_eq!(
+        single[10],
+        "SPHERE: centre(0.004, -12345.678, 3), radius=0.001, diffuse(0.8, 0.2, 0.2), \
+         specular(0.5, 0.5, 0.5), ambient(1, 1, 1), reflection=0, shininess=50, refraction=0, \
+         indexOfRefraction=1.0001"
+    );
+    let double = lines(&["--scalar", "f64"]);
+    assert_eq!(
+        double[9],
+        "Background Colour: (0.3333333333333333, 0, 16777217)"
+    );
+}
+
+#[test]
+fn json_has_what_is_stored() {
+    let folder = Folder::new();
+    folder.write("scene.txt", PRECISE_SCENE);
+    let run = folder.succeed(&["inspect", "scene.txt", "--json"]);
+    let text = String::from_utf8(run.stdout).unwrap();
+    assert!(
+        text.contains("\"radius\":0.001,") && text.contains("0.33333334"),
+        "{text}"
+    );
+    let json: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(json["scalar"], "f32");
+    assert_eq!((&json["width"], &json["height"]), (&json!(8), &json!(6)));
+    assert_eq!(json["lights"][0]["position"], json!([5.0, 5.0, -5.0]));
+    assert_eq!(json["sky"], false);
+    let [sphere, triangle] = &json["objects"].as_array().unwrap()[..] else {
+        panic!("{text}")
+    };
+    assert_eq!(sphere["kind"], "sphere");
+    assert_eq!(sphere["material"]["index_of_refraction"], 1.0001);
+    assert_eq!(triangle["kind"], "triangle");
+    assert_eq!(triangle["vertices"][1], json!([1.0, 0.0, 0.0]));
+    assert_eq!(triangle["normal"], json!([0.0, 0.0, -1.0]));
+    let run = folder.succeed(&["inspect", "scene.txt", "--json", "--scalar", "f64"]);
+    let json: Value = serde_json::from_slice(&run.stdout).unwrap();
+    assert_eq!(json["background"][2], 16_777_217.0);
 }
 
 #[test]
@@ -78,7 +152,7 @@ fn lists_the_normalised_plane() {
     let run = folder.run_with_input(&["inspect", "-"], text.as_bytes());
     let listing = String::from_utf8(run.stdout).unwrap();
     assert!(
-        listing.contains("PLANE: normal(0.00, 1.00, 0.00), distance=1.50, "),
+        listing.contains("PLANE: normal(0, 1, 0), distance=1.5, "),
         "{listing}"
     );
 }

@@ -11,6 +11,7 @@ mod export;
 mod files;
 mod fmt;
 mod generate;
+mod harmless_output;
 mod inspect;
 mod join;
 mod knobs;

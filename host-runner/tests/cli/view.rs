@@ -14,9 +14,21 @@ use crate::program::{Folder, Picture, SMALL_SCENE, scene};
 /// What may take long on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
+/// What else than `TERM` tells of a terminal's colours.
+const COLOR_VARIABLES: [&str; 6] = [
+    "NO_COLOR",
+    "COLORTERM",
+    "FORCE_COLOR",
+    "CLICOLOR_FORCE",
+    "CLICOLOR",
+    "TERM_PROGRAM",
+];
+
 /// The program on a terminal.
 struct Terminal {
     master: Box<dyn MasterPty + Send>,
+    /// Its end would be the end of input.
+    keys: Box<dyn Write + Send>,
     child: Box<dyn Child + Send + Sync>,
     output: Receiver<Vec<u8>>,
     parser: Parser,
@@ -27,11 +39,27 @@ struct Terminal {
 }
 
 impl Terminal {
-    fn new(
+    /// With all colours.
+    fn new(folder: &Folder, arguments: &[&str], size: [u16; 2]) -> Self {
+        Self::with(folder, arguments, size, &[("COLORTERM", "truecolor")])
+    }
+
+    fn with(
+        folder: &Folder,
+        arguments: &[&str],
+        size: [u16; 2],
+        environment: &[(&str, &str)],
+    ) -> Self {
+        let command = [&[env!("CARGO_BIN_EXE_scanray")], arguments].concat();
+        Self::running(folder, &command, size, environment)
+    }
+
+    /// Any program.
+    fn running(
         folder: &Folder,
         arguments: &[&str],
         [columns, lines]: [u16; 2],
-        no_color: bool,
+        environment: &[(&str, &str)],
     ) -> Self {
         let size = PtySize {
             rows: lines,
@@ -40,13 +68,15 @@ impl Terminal {
             pixel_height: 0,
         };
         let pair = native_pty_system().openpty(size).unwrap();
-        let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_scanray"));
-        command.args(arguments);
+        let mut command = CommandBuilder::new(arguments[0]);
+        command.args(&arguments[1..]);
         command.cwd(folder.path(""));
+        for name in COLOR_VARIABLES {
+            command.env_remove(name);
+        }
         command.env("TERM", "xterm-256color");
-        command.env_remove("NO_COLOR");
-        if no_color {
-            command.env("NO_COLOR", "1");
+        for (name, value) in environment {
+            command.env(name, value);
         }
         let modes_before = modes(&*pair.master);
         let child = pair.slave.spawn_command(command).unwrap();
@@ -61,6 +91,7 @@ impl Terminal {
             }
         });
         Self {
+            keys: pair.master.take_writer().unwrap(),
             master: pair.master,
             child,
             output,
@@ -91,11 +122,8 @@ impl Terminal {
     }
 
     fn press(&mut self, keys: &str) {
-        let mut writer = self.master.take_writer().unwrap();
-        writer.write_all(keys.as_bytes()).unwrap();
-        writer.flush().unwrap();
-        // Its end would be the end of input.
-        std::mem::forget(writer);
+        self.keys.write_all(keys.as_bytes()).unwrap();
+        self.keys.flush().unwrap();
     }
 
     /// Takes all output until the program ends; returns the exit code.
@@ -178,12 +206,7 @@ fn shows_the_picture_that_render_draws() {
         ),
     ] {
         let path = scene("pyramids");
-        let mut view = Terminal::new(
-            &folder,
-            &[&["view", &path], options].concat(),
-            terminal,
-            false,
-        );
+        let mut view = Terminal::new(&folder, &[&["view", &path], options].concat(), terminal);
         assert_eq!(view.finish(), 0);
         let mut same = vec![&*path];
         same.extend(options);
@@ -219,12 +242,7 @@ fn a_larger_display_is_averaged_down() {
         "gray4",
         "--dither",
     ];
-    let mut view = Terminal::new(
-        &folder,
-        &[&["view"], &options[..]].concat(),
-        [40, 24],
-        false,
-    );
+    let mut view = Terminal::new(&folder, &[&["view"], &options[..]].concat(), [40, 24]);
     assert_eq!(view.finish(), 0);
     let whole = folder.draw(&options);
     let mut rgb888 = Vec::new();
@@ -256,12 +274,7 @@ fn what_takes_long_appears_coarse_to_fine_in_place() {
         "--max-depth",
         "32",
     ];
-    let mut view = Terminal::new(
-        &folder,
-        &[&["view"], &options[..]].concat(),
-        [32, 13],
-        false,
-    );
+    let mut view = Terminal::new(&folder, &[&["view"], &options[..]].concat(), [32, 13]);
     assert_eq!(view.finish(), 0);
     let screen = view.parser.screen();
     let last = picture(screen, 32, 24).unwrap();
@@ -280,12 +293,7 @@ fn what_takes_long_appears_coarse_to_fine_in_place() {
 fn an_interrupted_picture_leaves_no_colours_behind() {
     let folder = Folder::new();
     let options = ["--size", "6000x4000", "--scalar", "f64"];
-    let mut view = Terminal::new(
-        &folder,
-        &[&["view"], &options[..]].concat(),
-        [32, 13],
-        false,
-    );
+    let mut view = Terminal::new(&folder, &[&["view"], &options[..]].concat(), [32, 13]);
     view.wait_until("a first frame", |screen| screen.contents().contains('▀'));
     view.press("\x03");
     assert_eq!(view.finish(), 130);
@@ -312,7 +320,6 @@ fn draws_again_whenever_the_scene_is_saved() {
         &folder,
         &["view", "scene.txt", "--watch", "--size", "30x20"],
         [70, 16],
-        false,
     );
     let is_shown = |expected: &Picture| {
         let expected = expected.clone();
@@ -372,7 +379,6 @@ fn an_error_leaves_most_of_the_picture_on_a_small_terminal() {
         &folder,
         &["view", "scene.txt", "--watch", "--size", "20x12"],
         [44, 7],
-        false,
     );
     view.wait_until("done", |screen| screen.contents().contains(" ms  q quits"));
     save(&folder, &good.replace("0.1\n", "zero\n"));
@@ -406,7 +412,7 @@ fn every_way_out_of_watching_restores_the_terminal() {
         ("\x03", 130),
         ("kill", 143),
     ] {
-        let mut view = Terminal::new(&folder, &["view", "scene.txt", "-w"], [40, 12], false);
+        let mut view = Terminal::new(&folder, &["view", "scene.txt", "-w"], [40, 12]);
         view.wait_until("the picture", |screen| {
             screen.contents().contains("q quits")
         });
@@ -421,6 +427,207 @@ fn every_way_out_of_watching_restores_the_terminal() {
         assert_is_as_before(view.parser.screen());
         assert_eq!(modes(&*view.master), view.modes_before, "{way:?}");
     }
+}
+
+/// Whether the program has ended, after some time.
+fn ends(child: &mut dyn Child) -> Option<u32> {
+    let start = Instant::now();
+    while start.elapsed() < PATIENCE {
+        if let Some(status) = child.try_wait().unwrap() {
+            return Some(status.exit_code());
+        }
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let _ = child.kill();
+    None
+}
+
+#[test]
+fn watching_ends_when_the_terminal_is_gone() {
+    let folder = Folder::new();
+    folder.write("scene.txt", SMALL_SCENE);
+    let watch = format!("exec {} view scene.txt --watch", crate::PROGRAM);
+    // With the signal and without it, as below `nohup` and where the terminal's process is another.
+    for script in [watch.clone(), format!("trap '' HUP; {watch}")] {
+        let pair = native_pty_system().openpty(PtySize::default()).unwrap();
+        let mut command = CommandBuilder::new("sh");
+        command.args(["-c", &script]);
+        command.cwd(folder.path(""));
+        command.env("TERM", "xterm-256color");
+        let mut child = pair.slave.spawn_command(command).unwrap();
+        drop(pair.slave);
+        let mut reader = pair.master.try_clone_reader().unwrap();
+        let mut shown = Vec::new();
+        while !String::from_utf8_lossy(&shown).contains("q quits") {
+            let mut buffer = [0; 1 << 12];
+            let count = reader.read(&mut buffer).unwrap();
+            shown.extend(&buffer[..count]);
+        }
+        // Until it waits for keys.
+        std::thread::sleep(Duration::from_millis(100));
+        drop(reader);
+        drop(pair.master);
+        let code = ends(&mut *child);
+        // By the signal, or because it cannot write any more.
+        assert!(matches!(code, Some(129 | 4)), "{script}: {code:?}");
+    }
+}
+
+#[test]
+fn a_suspended_watch_goes_on_with_its_picture() {
+    let folder = Folder::new();
+    folder.write("scene.txt", SMALL_SCENE.replace("8 6", "20 12"));
+    let expected = folder.draw(&["scene.txt"]);
+    // A shell with jobs, which says when the program is stopped.
+    let script =
+        "set -m; \"$0\" view scene.txt --watch --size 20x12; echo \"stopped $?\"; read -r line; fg";
+    let mut view = Terminal::running(
+        &folder,
+        &["bash", "-c", script, crate::PROGRAM],
+        [70, 16],
+        &[("COLORTERM", "truecolor")],
+    );
+    let done = |screen: &vt100::Screen| {
+        screen.contents().contains(" ms  q quits")
+            && picture(screen, 20, 12).as_ref() == Some(&expected)
+    };
+    view.wait_until("the picture", done);
+    view.press("\x1a");
+    view.wait_until("the shell", |screen| {
+        screen.contents().contains("stopped 148")
+    });
+    assert_is_as_before(view.parser.screen());
+    assert_eq!(modes(&*view.master), view.modes_before);
+    view.press("\n");
+    view.wait_until("the picture again", done);
+    assert!(view.parser.screen().alternate_screen() && view.parser.screen().hide_cursor());
+    view.press("q");
+    assert_eq!(view.finish(), 0);
+    assert_is_as_before(view.parser.screen());
+    assert_eq!(modes(&*view.master), view.modes_before);
+}
+
+#[test]
+fn a_terminal_without_all_colours_gets_the_nearest_of_256() {
+    let folder = Folder::new();
+    let options = ["--size", "33x21"];
+    let expected = folder.draw(&[&*scene("pyramids"), "--size", "33x21"]);
+    let path = scene("pyramids");
+    let mut view = Terminal::with(
+        &folder,
+        &[&["view", &*path], &options[..]].concat(),
+        [80, 24],
+        &[],
+    );
+    assert_eq!(view.finish(), 0);
+    let level = |index: u8, weight: u8| match index {
+        232.. => 8 + 10 * (index - 232),
+        _ => match (index - 16) / weight % 6 {
+            0 => 0,
+            level => 55 + 40 * level,
+        },
+    };
+    let screen = view.parser.screen();
+    let mut indices = Vec::new();
+    for (i, pixel) in expected.rgb888.chunks_exact(3).enumerate() {
+        let (x, y) = (i % 33, i / 33);
+        let cell = screen.cell((y / 2) as u16, x as u16).unwrap();
+        let color = if y % 2 == 0 {
+            cell.fgcolor()
+        } else {
+            cell.bgcolor()
+        };
+        let Color::Idx(index @ 16..) = color else {
+            panic!("{color:?} at {x}, {y}")
+        };
+        indices.push(index);
+        for (channel, weight) in [36, 6, 1].into_iter().enumerate() {
+            // The widest gap of the cube is 95.
+            let error = level(index, weight).abs_diff(pixel[channel]);
+            assert!(error <= 48, "{index} for {pixel:?}");
+        }
+    }
+    indices.sort();
+    indices.dedup();
+    assert!(indices.len() > 10, "{indices:?}");
+    assert!(!String::from_utf8_lossy(&view.stream).contains("8;2;"));
+}
+
+#[test]
+fn a_dumb_terminal_gets_letters_and_no_watch() {
+    let folder = Folder::new();
+    folder.write("scene.txt", SMALL_SCENE);
+    for (term, has_escapes) in [("dumb", false), ("vt100", false), ("xterm-direct", true)] {
+        let mut view = Terminal::with(&folder, &["view", "scene.txt"], [32, 13], &[("TERM", term)]);
+        assert_eq!(view.finish(), 0);
+        assert_eq!(view.stream.contains(&b'\x1b'), has_escapes, "{term}");
+    }
+    let dumb = [("TERM", "dumb")];
+    let mut view = Terminal::with(&folder, &["view", "scene.txt", "-w"], [80, 13], &dumb);
+    assert_eq!(view.finish(), 2);
+    let said = view.parser.screen().contents();
+    assert!(
+        said.contains("TERM=dumb") && !view.stream.contains(&b'\x1b'),
+        "{said}"
+    );
+}
+
+/// The picture in the dots of the braille characters at the top left.
+fn dots(screen: &vt100::Screen, width: usize, height: usize) -> Option<Picture> {
+    const BITS: [[u32; 4]; 2] = [[0x01, 0x02, 0x04, 0x40], [0x08, 0x10, 0x20, 0x80]];
+    let mut rgb888 = Vec::new();
+    for y in 0..height {
+        for x in 0..width {
+            let cell = screen.cell((y / 4) as u16, (x / 2) as u16)?;
+            let number = u32::from(cell.contents().chars().next()?).checked_sub(0x2800)?;
+            let is_lit = number & BITS[x % 2][y % 4] != 0;
+            rgb888.extend([if is_lit { 255 } else { 0 }; 3]);
+        }
+    }
+    Some(Picture {
+        width,
+        height,
+        rgb888,
+    })
+}
+
+#[test]
+fn pixels_of_one_bit_are_dots_where_cells_are_too_few() {
+    let folder = Folder::new();
+    let path = scene("reflective");
+    // Drawn in fewer pixels only where there are not even enough dots.
+    for (options, size, drawn) in [
+        (&["--display", "ssd1306"][..], [80, 24], None),
+        (
+            &["--size", "101x50", "--color", "binary", "--dither"],
+            [60, 20],
+            None,
+        ),
+        (&["--display", "epd4in2"], [80, 24], Some("123x92")),
+    ] {
+        let arguments = [&["view", &*path], options].concat();
+        let mut view = Terminal::new(&folder, &arguments, size);
+        assert_eq!(view.finish(), 0);
+        let mut same = [&[&*path], options].concat();
+        if let Some(drawn) = drawn {
+            same.extend(["--size", drawn]);
+        }
+        let expected = folder.draw(&same);
+        let screen = view.parser.screen();
+        let shown = dots(screen, expected.width, expected.height);
+        assert!(
+            shown.as_ref() == Some(&expected),
+            "{options:?} {}",
+            screen.contents()
+        );
+        assert_is_as_before(screen);
+    }
+    // Where there are cells enough, they are the pixels.
+    let arguments = ["view", &*path, "--display", "pcd8544"];
+    let mut view = Terminal::new(&folder, &arguments, [84, 30]);
+    assert_eq!(view.finish(), 0);
+    let expected = folder.draw(&[&*path, "--display", "pcd8544"]);
+    assert!(picture(view.parser.screen(), 84, 48) == Some(expected));
 }
 
 #[test]
@@ -440,7 +647,12 @@ fn letters_stand_for_colours_where_there_are_none() {
     // The sky is bright, the lower side of the sphere dark.
     assert!(text.starts_with("####"), "{text}");
     assert!(text.contains(' ') || text.contains('.'), "{text}");
-    let mut view = Terminal::new(&folder, &["view", "scene.txt"], [32, 13], true);
+    let mut view = Terminal::with(
+        &folder,
+        &["view", "scene.txt"],
+        [32, 13],
+        &[("NO_COLOR", "1"), ("COLORTERM", "truecolor")],
+    );
     assert_eq!(view.finish(), 0);
     assert_eq!(view.parser.screen().contents().trim_end(), text.trim_end());
     assert!(!view.stream.contains(&b'\x1b'));

@@ -9,7 +9,7 @@ use scanray::Resolution;
 
 use crate::cost::{Core, Counted, Emulator, Job};
 use crate::report::{self, BothScalars, Document, Emulation, SceneReport, Sweep};
-use scanray_host::console::say;
+use scanray_host::console::{say, shown};
 use scanray_host::failure::Failure;
 use scanray_host::option_values::{Size, whole};
 use scanray_host::output_files::Place;
@@ -155,7 +155,7 @@ fn try_folder(folder: &Path, kinds: &[Kind]) -> Result<(), Failure> {
 
 /// Reads the scenes and gives each a name of its own: the file's, with folders where that is not enough.
 fn named(sources: Vec<SceneSource>) -> Result<Vec<Named>, Failure> {
-    let stem = |source: &SceneSource| source.stem().display().to_string();
+    let stem = |source: &SceneSource| shown(source.stem());
     let names: Vec<String> = sources
         .iter()
         .map(|source| {
@@ -309,10 +309,7 @@ fn write(document: &Document, folder: &Path, kinds: &[Kind]) -> Result<(), Failu
         place.write(|file| file.write_all(content))?;
     }
     if let Some((first, _)) = files.first() {
-        say(format_args!(
-            "Report {} saved.",
-            folder.join(first).display()
-        ));
+        say(format_args!("Report {} saved.", shown(folder.join(first))));
     }
     Ok(())
 }

@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use crate::cost::{Core, MODEL};
 use crate::report::{BothScalars, Budget, Choice, Sampling, Settings, Sweep, Tuned, tune};
-use scanray_host::console::print;
+use scanray_host::console::{print, shown};
 use scanray_host::failure::Failure;
 use scanray_host::option_values::{ColorName, Size, name_of, whole};
 use scanray_host::parallel_drawing::Workers;
@@ -172,7 +172,7 @@ pub(crate) fn run(args: &TuneArgs) -> Result<ExitCode, Failure> {
         .map_or(Vec::new(), |best| code(&best.settings, resolution));
     let answer = Answer {
         code,
-        scene: source.name(),
+        scene: source.data_name(),
         size: [resolution.width, resolution.height],
         target: args.target,
         clock_hz: budget.clock,
@@ -221,7 +221,7 @@ impl Answer {
         writeln!(
             out,
             "{}, {}×{} in {}{dither}, on {} at {} MHz with {} wait states, {} a picture:",
-            self.scene,
+            shown(&self.scene),
             size.width,
             size.height,
             name_of(args.color),

@@ -7,6 +7,7 @@ use std::process::{Command, Stdio};
 use serde::{Deserialize, Serialize};
 
 use super::Core;
+use scanray_host::console::shown;
 use scanray_host::failure::Failure;
 
 /// The script that builds the programs and runs them.
@@ -71,7 +72,7 @@ impl Emulator {
     /// What is missing, and how it is had.
     pub(crate) fn find() -> Result<Self, String> {
         let firmware = firmware_folder().ok_or(
-            "the folder firmware of a checkout of scanray is missing: run the command in a checkout",
+            "neither this folder nor one above it has the firmware of scanray: run the command in a checkout, with -o for the report's folder",
         )?;
         for (program, package) in [
             ("python3", "python3"),
@@ -109,7 +110,7 @@ impl Emulator {
         let cannot = |why: &dyn std::fmt::Display| {
             Failure::Files(format!(
                 "cannot count under emulation by {}: {why}",
-                self.firmware.join(SCRIPT).display()
+                shown(self.firmware.join(SCRIPT))
             ))
         };
         let mut script = Command::new("python3");
@@ -174,13 +175,11 @@ impl Counted {
     }
 }
 
-/// The firmware of the checkout that the current folder is in, or of the one this program was built from.
+/// The firmware of the checkout that the current folder is in.
 fn firmware_folder() -> Option<PathBuf> {
     let here = std::env::current_dir().ok();
     let above = here.iter().flat_map(|here| here.ancestors());
-    let own = Path::new(env!("CARGO_MANIFEST_DIR")).parent();
     above
-        .chain(own)
         .map(|folder| folder.join("firmware"))
         .find(|folder| folder.join(SCRIPT).is_file())
 }

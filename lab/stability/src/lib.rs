@@ -9,6 +9,7 @@
 //! "Stiff" means two widely separated scales in one scene.
 
 // Files of tests/common are those that the core's own tests use, too: the core can be tested without this crate.
+mod boards;
 pub mod catalogue;
 pub mod pictures;
 #[path = "../../../tests/common/quick_reject.rs"]

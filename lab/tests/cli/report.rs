@@ -2,7 +2,7 @@
 
 use std::io::Write as _;
 
-use crate::program::{Folder, SMALL_SCENE};
+use crate::program::{Folder, Run, SMALL_SCENE};
 
 #[test]
 fn writes_page_markdown_csv_and_json() {
@@ -160,13 +160,10 @@ fn settings_that_change_nothing_are_not_worth_having() {
 }
 
 #[test]
-#[ignore = "builds and emulates firmware: .ci/run runs it"]
-fn instructions_are_counted_where_there_is_an_emulator() {
+fn without_a_checkout_instructions_are_predicted() {
     let folder = Folder::new();
-    // With a mirror, so that a depth matters.
-    let mirror = SMALL_SCENE.replace("1 1 1  0 50 0 0", "1 1 1  0.5 50 0 0");
-    assert_ne!(mirror, SMALL_SCENE);
-    folder.write("a.txt", mirror);
+    folder.write("a.txt", SMALL_SCENE);
+    // Wherever the program was built, the current folder decides.
     let run = folder.run(&[
         "report",
         "a.txt",
@@ -175,9 +172,49 @@ fn instructions_are_counted_where_there_is_an_emulator() {
         "--size",
         "8x6",
         "--emulate=m4f",
-        "--threads",
-        "2",
+        "--only",
+        "json",
     ]);
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(
+        run.stderr.contains("predicted, not counted")
+            && run.stderr.contains("run the command in a checkout"),
+        "{}",
+        run.stderr
+    );
+}
+
+#[test]
+#[ignore = "builds and emulates firmware: .ci/run runs it"]
+fn instructions_are_counted_where_there_is_an_emulator() {
+    let folder = Folder::new();
+    // With a mirror, so that a depth matters.
+    let mirror = SMALL_SCENE.replace("1 1 1  0 50 0 0", "1 1 1  0.5 50 0 0");
+    assert_ne!(mirror, SMALL_SCENE);
+    folder.write("a.txt", mirror);
+    let [scene, out] =
+        ["a.txt", "out"].map(|name| folder.path(name).into_os_string().into_string().unwrap());
+    // Where the firmware is.
+    let run = folder
+        .program(&[
+            "report",
+            &scene,
+            "-o",
+            &out,
+            "--size",
+            "8x6",
+            "--emulate=m4f",
+            "--threads",
+            "2",
+        ])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .unwrap();
+    let run = Run {
+        code: run.status.code().unwrap(),
+        stdout: run.stdout,
+        stderr: String::from_utf8(run.stderr).unwrap(),
+    };
     assert_eq!(run.code, 0, "{}", run.stderr);
     let text = |name: &str| String::from_utf8(folder.read(&format!("out/{name}"))).unwrap();
     let json: serde_json::Value = serde_json::from_str(&text("report.json")).unwrap();

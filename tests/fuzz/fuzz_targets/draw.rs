@@ -1,7 +1,7 @@
 //! A scene that is accepted is drawn: finite colours, no more rays than promised.
 #![no_main]
 
-#[path = "../properties.rs"]
+#[path = "../../scene/properties.rs"]
 mod properties;
 
 libfuzzer_sys::fuzz_target!(|text: &[u8]| properties::draw(text));

@@ -1,7 +1,7 @@
 //! Any bytes are a scene or an error at a place.
 #![no_main]
 
-#[path = "../properties.rs"]
+#[path = "../../scene/properties.rs"]
 mod properties;
 
 libfuzzer_sys::fuzz_target!(|text: &[u8]| properties::parse(text));

@@ -1,7 +1,9 @@
 //! A scene that was printed is read back as the same scene.
 #![no_main]
 
-#[path = "../properties.rs"]
+#[path = "../../scene/printing.rs"]
+mod printing;
+#[path = "../../scene/properties.rs"]
 mod properties;
 
-libfuzzer_sys::fuzz_target!(|text: &[u8]| properties::print(text));
+libfuzzer_sys::fuzz_target!(|text: &[u8]| printing::print(text));

@@ -23,8 +23,8 @@ const MOST: u64 = 131_072;
 #[derive(Args, Debug)]
 #[command(after_help = "\
 spheres    N spheres of a radius of about N^(-1/3), a quarter of them mirrors, above a mirroring floor
-icosphere  a closed mesh of triangles, the largest of 20 f² for a whole f that has at most N, with bumps: a boulder of many
-           triangles, a gem of few; above a floor
+icosphere  a closed mesh of triangles, the largest of 20 f² for a whole f that has at most N, with bumps: a boulder of \
+many triangles, a gem of few; above a floor
 
 The same kind, number and seed give the same scene everywhere.
 

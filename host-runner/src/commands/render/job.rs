@@ -26,7 +26,7 @@ use crate::render_report::{Pools, RenderReport, TurntableReport};
 use crate::render_settings::PictureSettings;
 use crate::scene_file::SceneSource;
 use crate::scene_lines::object_lines;
-use crate::scene_listing;
+use crate::scene_listing::{self, Digits};
 use crate::turntable::{Axis, Crossing, Turntable, crossings, default_axis};
 
 /// The pictures of a scene, to be drawn.
@@ -63,9 +63,11 @@ impl Job<'_> {
         if args.verbose {
             // The listing is for people when standard output is taken by data.
             if args.json || self.writes_to_stdout() {
-                let _ = scene_listing::write(&mut io::stderr().lock(), &scene);
+                let _ = scene_listing::write(&mut io::stderr().lock(), &scene, Digits::AsStored);
             } else {
-                still_draw(print(|out| scene_listing::write(out, &scene)))?;
+                still_draw(print(|out| {
+                    scene_listing::write(out, &scene, Digits::AsStored)
+                }))?;
             }
         }
         let resolution = self.settings.resolution(scene.resolution());
@@ -226,8 +228,8 @@ impl Job<'_> {
         let settings = &self.settings;
         let turntable = self.turntable.zip(axis);
         RenderReport {
-            scene: self.scene.name(),
-            file: file.place.name(),
+            scene: self.scene.data_name(),
+            file: file.place.data_name(),
             bytes: 0,
             size: studio.resolution,
             rows: studio.rows.clone(),

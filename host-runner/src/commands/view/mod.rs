@@ -20,7 +20,7 @@ use scanray::{
     render::{Budget, Dithered, Exact, Progress, Progressive},
 };
 
-use self::cells::filling;
+use self::cells::{Style, filling};
 use self::screen::{Linear, Pixels, Screen, Shown, shown};
 use self::terminal::{FullScreen, Output};
 use self::watch::Watch;
@@ -30,7 +30,7 @@ use crate::failure::Failure;
 use crate::host_pixels::Drawing;
 use crate::host_tracer::HostTracer;
 use crate::interrupt;
-use crate::option_values::{ScalarName, with_color};
+use crate::option_values::{ColorName, ScalarName, with_color};
 use crate::picture_memory::Shortage;
 use crate::pools::{HostPools, HostScalar};
 use crate::render_settings::{PictureArgs, PictureSettings};
@@ -46,8 +46,12 @@ Examples:
 
 With --watch the picture is drawn again whenever the file is saved: open an editor beside it.
 
-A terminal with 24-bit colours is assumed (two pixels a cell); where NO_COLOR is set or the output is no \
-terminal, letters stand for bright and dark. A display that is larger than the terminal is averaged down.
+Two pixels a cell, in 24-bit colours where COLORTERM is truecolor, or else in 256; where the terminal has none, NO_COLOR \
+is set or the output is no terminal, letters stand for bright and dark. A display that is larger than the terminal is \
+averaged down. One of black and white is not: its pixels become the dots of braille characters, eight a cell, and if \
+even these are too many the scene is drawn in fewer pixels.
+
+q ends --watch; Ctrl-Z suspends it on Unix, and fg goes on.
 
 Exit codes: 0 fine, also after q, 2 usage, 3 scene, 4 files or memory, 130 interrupted by Ctrl-C, 143 by kill.")]
 pub(crate) struct ViewArgs {
@@ -136,21 +140,59 @@ fn draw<T: HostScalar + Drawing>(
     }
 }
 
-/// The size to draw in, and the size to show.
-fn sizes(
-    settings: &PictureSettings,
-    own: Resolution,
-    columns: u16,
-    lines: u16,
-) -> (Resolution, Resolution) {
-    let Some(size) = settings.size() else {
-        let size = filling(own, columns, lines);
-        return (size, size);
-    };
-    if size.width <= columns && u32::from(size.height) <= 2 * u32::from(lines) {
-        (size, size)
-    } else {
-        (size, filling(size, columns, lines))
+/// How a picture is fitted into the cells of a terminal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Layout {
+    /// The size that is asked for.
+    asked: Resolution,
+    /// The size to draw in.
+    size: Resolution,
+    /// The size to show.
+    shown: Resolution,
+    style: Style,
+}
+
+impl Layout {
+    fn new(
+        settings: &PictureSettings,
+        own: Resolution,
+        style: Style,
+        columns: u16,
+        lines: u16,
+    ) -> Self {
+        let asked = settings.size();
+        let asked = asked.unwrap_or_else(|| filling(own, style, columns, lines));
+        let as_it_is = Self {
+            asked,
+            size: asked,
+            shown: asked,
+            style,
+        };
+        if style.has_room(asked, columns, lines) {
+            return as_it_is;
+        }
+        if settings.color != ColorName::Binary {
+            return Self {
+                shown: filling(asked, style, columns, lines),
+                ..as_it_is
+            };
+        }
+        // The mean of black and white pixels is a pattern of its own, which the display does not show.
+        let style = match style {
+            Style::Blocks(colors) => Style::Dots(colors),
+            other => other,
+        };
+        let size = if style.has_room(asked, columns, lines) {
+            asked
+        } else {
+            filling(asked, style, columns, lines)
+        };
+        Self {
+            asked,
+            size,
+            shown: size,
+            style,
+        }
     }
 }
 
@@ -174,16 +216,17 @@ fn show<T: HostScalar + Drawing>(
     let scene = pools.as_scene();
     let output = Output::new();
     // The line below the picture is the next prompt's.
-    let (size, shown) = sizes(
+    let layout = Layout::new(
         settings,
         scene.resolution(),
+        output.style,
         output.columns,
         output.lines - 1,
     );
-    let mut pixels = Pixels::new(size)?;
+    let mut pixels = Pixels::new(layout.size)?;
     let mut lines_above = 0;
     let mut write = |pixels: &Pixels| {
-        let lines = cells::lines(&*fitted(pixels, shown)?, output.style);
+        let lines = cells::lines(&*fitted(pixels, layout.shown)?, layout.style);
         let up = match lines_above {
             0 => String::new(),
             above => format!("\x1b[{above}A"),
@@ -196,7 +239,7 @@ fn show<T: HostScalar + Drawing>(
             .and_then(|()| stdout.flush())
             .map_err(|error| Failure::stdout(&error))
     };
-    let is_live = output.is_terminal && output.style == cells::Style::Blocks;
+    let is_live = output.is_terminal && output.style != Style::Letters;
     let stop = draw(scene, settings, &mut pixels, &mut |pixels| {
         if is_live {
             // From now on the program does not end in the middle of a line, which would leave its colours
@@ -226,10 +269,15 @@ fn watch<T: HostScalar + Drawing>(
             source.name()
         )));
     };
-    if !Output::new().is_terminal {
-        return Err(Failure::Usage(
-            "--watch needs a terminal; leave it out to print the picture once".to_owned(),
-        ));
+    let output = Output::new();
+    if !output.is_terminal || output.is_dumb {
+        let why = match output.is_dumb {
+            true => " that can place the cursor, and TERM=dumb is none",
+            false => "",
+        };
+        return Err(Failure::Usage(format!(
+            "--watch needs a terminal{why}; leave it out to print the picture once"
+        )));
     }
     let file = Watch::new(path);
     let text = source.read()?;
@@ -239,10 +287,11 @@ fn watch<T: HostScalar + Drawing>(
         source,
         settings,
         terminal,
-        output: Output::new(),
+        output,
         file,
         text: Ok(text),
         picture: None,
+        style: output.style,
         message: Vec::new(),
     };
     let mut pools = T::pools();
@@ -270,6 +319,8 @@ struct Session<'a> {
     text: Result<Vec<u8>, Vec<String>>,
     /// The last good picture, in the size that is shown.
     picture: Option<Pixels>,
+    /// How it is shown.
+    style: Style,
     /// What stands below it.
     message: Vec<String>,
 }
@@ -296,18 +347,20 @@ impl Session<'_> {
             }
         };
         let scene = pools.as_scene();
-        let (size, shown) = sizes(
+        let layout = Layout::new(
             self.settings,
             scene.resolution(),
+            self.output.style,
             self.output.columns,
             self.output.lines.saturating_sub(1).max(1),
         );
         let start = Instant::now();
-        let mut pixels = Pixels::new(size)?;
+        let mut pixels = Pixels::new(layout.size)?;
         let status = |state: &str| {
             let name = self.source.name();
-            let (width, height) = (size.width, size.height);
-            let scale = if size == shown {
+            let Layout { asked, shown, .. } = layout;
+            let (width, height) = (asked.width, asked.height);
+            let scale = if asked == shown {
                 String::new()
             } else {
                 format!(", shown as {}x{}", shown.width, shown.height)
@@ -317,14 +370,20 @@ impl Session<'_> {
         self.message = vec![status("drawing")];
         let settings = self.settings;
         let stop = draw(scene, settings, &mut pixels, &mut |pixels| {
-            self.picture = Some(fitted(pixels, shown)?.into_owned());
+            self.style = layout.style;
+            self.picture = Some(fitted(pixels, layout.shown)?.into_owned());
             self.show()?;
             self.stop(Duration::ZERO)
         })?;
         if stop.is_none() {
             let state = format!("{} ms", start.elapsed().as_millis());
-            self.message = warning.into_iter().chain([status(&state)]).collect();
-            self.picture = Some(fitted(&pixels, shown)?.into_owned());
+            let warnings = warning.iter().flat_map(|lines| lines.lines());
+            self.message = warnings
+                .map(str::to_owned)
+                .chain([status(&state)])
+                .collect();
+            self.style = layout.style;
+            self.picture = Some(fitted(&pixels, layout.shown)?.into_owned());
             self.show()?;
         }
         Ok(stop)
@@ -355,6 +414,10 @@ impl Session<'_> {
                         KeyCode::Char('c') if is_control => {
                             return Ok(Some(Stop::Interrupted(130)));
                         }
+                        KeyCode::Char('z') if is_control => {
+                            self.terminal.suspend().map_err(in_terminal)?;
+                            return Ok(Some(Stop::Anew));
+                        }
                         _ => {}
                     }
                 }
@@ -364,6 +427,9 @@ impl Session<'_> {
         }
         if let Some(code) = interrupt::exit_code() {
             return Ok(Some(Stop::Interrupted(code)));
+        }
+        if self.terminal.is_taken_back().map_err(in_terminal)? {
+            return Ok(Some(Stop::Anew));
         }
         if !self.file.may_have_changed() {
             return Ok(None);
@@ -381,7 +447,7 @@ impl Session<'_> {
     fn show(&self) -> Result<(), Failure> {
         let [columns, rows] = [self.output.columns, self.output.lines].map(usize::from);
         let mut lines = match &self.picture {
-            Some(pixels) => cells::lines(pixels, self.output.style),
+            Some(pixels) => cells::lines(pixels, self.style),
             None => Vec::new(),
         };
         // The picture is what matters: most of it stays.

@@ -374,7 +374,7 @@ fn crc_32(bytes: impl IntoIterator<Item = u8>) -> u32 {
 
 fn same_picture_on_every_machine<T: Number>(record: &mut Record) {
     // What the boards drew: a line for each scene, its name and a column for each machine.
-    let boards = scenes::BOARDS_HASHES;
+    let boards = crate::boards::HASHES;
     let mut lines = boards.lines().map(str::split_whitespace);
     let machines: Vec<&str> = lines.next().into_iter().flatten().skip(1).collect();
     record.holds(
@@ -384,7 +384,7 @@ fn same_picture_on_every_machine<T: Number>(record: &mut Record) {
     let mut drawn = Vec::new();
     for mut line in lines {
         let Some(name) = line.next() else { continue };
-        let Some(text) = scenes::text_on_boards(name) else {
+        let Some(text) = crate::boards::text(name) else {
             record.holds(format!("{name} is a scene"), false);
             continue;
         };

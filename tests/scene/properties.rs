@@ -14,12 +14,6 @@ pub(crate) fn parse(text: &[u8]) {
     read::<f64>(text);
 }
 
-/// What is printed of a scene is read back as the same scene, and printed the same again.
-pub(crate) fn print(text: &[u8]) {
-    print_and_read::<f32>(text);
-    print_and_read::<f64>(text);
-}
-
 /// A scene that is accepted is drawn with finite colours in 0…1, with no more rays than promised, and with
 /// the bits that it has when every ray is tested against every object.
 pub(crate) fn draw(text: &[u8]) {
@@ -27,7 +21,8 @@ pub(crate) fn draw(text: &[u8]) {
     draw_with::<f64>(text);
 }
 
-fn read<T: Scalar + FromDecimal>(text: &[u8]) -> Option<Box<ScenePools<T>>> {
+/// The pools of a text that is a scene.
+pub(crate) fn read<T: Scalar + FromDecimal>(text: &[u8]) -> Option<Box<ScenePools<T>>> {
     let mut pools = Box::new(ScenePools::new());
     match pools.parse(text) {
         Ok(_) => Some(pools),
@@ -43,24 +38,6 @@ fn read<T: Scalar + FromDecimal>(text: &[u8]) -> Option<Box<ScenePools<T>>> {
             None
         }
     }
-}
-
-fn print_and_read<T: Scalar + FromDecimal>(text: &[u8]) {
-    let Some(pools) = read::<T>(text) else { return };
-    let scene = pools.as_scene();
-    let printed = scanray::print(&scene).unwrap().to_string();
-    let mut again = Box::new(ScenePools::<T>::new());
-    if let Err(error) = again.parse(printed.as_bytes()) {
-        panic!("{error}\n{printed}");
-    }
-    // The debug format tells −0 from 0.
-    assert_eq!(
-        format!("{scene:?}"),
-        format!("{:?}", again.as_scene()),
-        "{printed}"
-    );
-    let once_more = scanray::print(&again.as_scene()).unwrap().to_string();
-    assert_eq!(printed, once_more);
 }
 
 fn draw_with<T: Scalar + FromDecimal>(text: &[u8]) {
