@@ -279,14 +279,14 @@ mod tests {
             assert_eq!(printed::<f64>(text.as_bytes()), printed::<f64>(&once));
         }
         // Random numbers in random forms.
-        let mut word = || -> String {
+        let mut word = |longest: u32| -> String {
             let mut digits = |most| -> String {
                 let count = random(most);
                 (0..count)
                     .map(|_| char::from(b'0' + (random(14) as u8).min(9)))
                     .collect()
             };
-            let (whole, fraction, exponent) = (digits(6) + "7", digits(12), digits(2));
+            let (whole, fraction, exponent) = (digits(longest) + "7", digits(12), digits(2));
             match exponent.len() {
                 0 => format!("{whole}.{fraction}"),
                 _ => format!("0{whole}.{fraction}e-{exponent}"),
@@ -294,16 +294,18 @@ mod tests {
         };
         for _ in 0..500 {
             let mut numbers =
-                |count: usize| (0..count).map(|_| word()).collect::<Vec<_>>().join(" ");
-            let text = format!(
-                "1\n{}\n8 6\n{}\n{}\n0\n{}\n0 {} {}\n",
+                |count: usize| (0..count).map(|_| word(6)).collect::<Vec<_>>().join(" ");
+            let scene = format!(
+                "1\n{}\n8 6\n{}\n{}\n0\n{}\n0 {}",
                 numbers(3),
                 numbers(8),
                 numbers(1),
                 numbers(3),
                 numbers(4),
-                numbers(13)
             );
+            // No share of light above a million.
+            let shares: Vec<_> = (0..12).map(|_| word(4)).collect();
+            let text = format!("{scene} {} 1.50\n", shares.join(" "));
             let tidy = canonical(text.as_bytes());
             assert_eq!(
                 printed::<f64>(text.as_bytes()),

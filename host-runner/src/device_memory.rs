@@ -167,10 +167,13 @@ impl DeviceMemory {
             .map(|pool| pool.entry.pool(pool.entries, word));
         // What is derived is a record of its own.
         let (own, derived) = lists.split_at(5);
-        let derived = Layout::record(derived);
+        let is_clear = [Layout::of::<bool>()];
+        let derived = Layout::record(&[derived, &is_clear].concat());
         let scene_pools = Layout::record(&[&[settings], own, &[derived]].concat());
         // A slice each, of stored objects two.
-        let view = Layout::record(&[&plain[..], &[Layout::words(2, word); 11]].concat());
+        let slices = [Layout::words(2, word); 11];
+        let is_clear = [Layout::words(1, word)];
+        let view = Layout::record(&[&plain[..], &slices, &is_clear].concat());
         let tracer = Layout::record(&[view, Layout::words(1, word), Layout::of::<T>()]);
         let stack_frame = Layout {
             size: Tracer::<T>::FRAME_BYTES,

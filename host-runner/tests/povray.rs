@@ -187,7 +187,7 @@ fn povray_draws_the_same() {
             scene("window-room"),
             all,
             [10.0, 3.0],
-            [3.0, 1.0],
+            [3.0, 1.25],
         ),
         ("mixture", MIXTURE.to_owned(), all, [3.0, 1.0], [3.0, 1.0]),
     ];

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use scanray::{
     Color, MaterialDescription, ParseError, Resolution, Scalar, ScenePools, Vec3,
-    parser::{Found, FromDecimal, Report},
+    parser::{Found, FromDecimal, Range, Report},
     shape::Object,
 };
 
@@ -65,8 +65,14 @@ fn radius() -> impl Strategy<Value = f32> {
 
 fn material() -> impl Strategy<Value = [f32; 13]> {
     prop::array::uniform13(amount()).prop_map(|mut numbers| {
-        // Refraction asks for an index.
-        if numbers[11] > 0.0 && numbers[12] == 0.0 {
+        // Of all but the shininess and the index no more than what is accepted; refraction asks for an index.
+        for (place, number) in numbers.iter_mut().enumerate() {
+            if place != 10 && place != 12 {
+                *number = number.min(Range::MAX_SHARE);
+            }
+        }
+        let [least, most] = Range::INDEX;
+        if numbers[11] > 0.0 && !(least..=most).contains(&numbers[12]) {
             numbers[12] = 1.5;
         }
         numbers

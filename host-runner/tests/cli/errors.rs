@@ -170,7 +170,7 @@ fn scene_errors_show_the_place() {
             (5, 1),
             "-0.1 # dim",
             "^^^^",
-            "expected the ambient intensity: a number of at least 0; found `-0.1`",
+            "expected the ambient intensity: a number from 0 to 1e30; found `-0.1`",
         ),
         // A line that is too short: behind its last number.
         (

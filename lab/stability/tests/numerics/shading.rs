@@ -24,6 +24,6 @@ super::cases! {
     case_49_index_of_refraction_zero_negative_or_nan,
     case_50_shininess,
     case_51_ends_of_the_phong_base,
-    case_72_light_next_to_a_surface,
     case_52_reflection_and_refraction_above_1,
+    case_72_light_next_to_a_surface,
 }
