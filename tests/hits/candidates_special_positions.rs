@@ -464,3 +464,34 @@ fn spheres_smaller_than_the_rounding_of_their_places_have_the_same_bits() {
          1 0 1 0 1 .5 .5 .5 .1 .1 .1 1 1 1 .3 50 0 0\n",
     ]);
 }
+
+/// A light that only rounding takes out of a sphere lies on its surface, and lights the inside: all of it, as one does that is in the
+/// sphere by as little.
+#[test]
+fn spheres_with_a_light_on_their_surface_have_the_same_bits() {
+    for (center, radius) in [(0.0, 1.0_f32), (0.0, 0.1), (0.0, 30.0), (2.5, 0.7)] {
+        for units in -40..=40 {
+            let height = radius * (1.0 + f32::EPSILON * units as f32) - center;
+            let text = format!(
+                "1\n0 {:e} {:e}\n8 8\n0 {height:e} 0 1 1 1 1 1 1\n0\n0\n0 0 0\n\
+                 0 0 {:e} 0 {radius:e} .5 .5 .5 .5 .5 .5 0 0 0 0 20 0 1.5\n",
+                -center,
+                -0.5 * radius,
+                -center,
+            );
+            compare_texts(&[&text]);
+            let mut pools: ScenePools = ScenePools::new();
+            pools.parse(text.as_bytes()).unwrap();
+            let tracer = Tracer::new(pools.as_scene()).with_resolution(Resolution {
+                width: 8,
+                height: 8,
+            });
+            let pixels = (0..8).flat_map(|y| (0..8).map(move |x| (x, y)));
+            let lit = pixels
+                .filter(|&(x, y)| tracer.pixel(x, y) != Color::BLACK)
+                .count();
+            // Rounding decides for all at once, and not on the surface.
+            assert!(lit == 64 || lit == 0 && units > 4, "{text}: {lit} lit");
+        }
+    }
+}
