@@ -168,4 +168,38 @@ mod tests {
         let steep = Vec3::new(0.7, -(1.0_f64 - 0.49).sqrt(), 0.0);
         assert_eq!(steep.refract(normal, index, bend), None);
     }
+    /// Where the index is extreme the ray all but meets its normal, and the sum of both is what rounding left of them, in whatever
+    /// direction.
+    #[test]
+    fn refraction_by_an_extreme_index_ends_beyond_the_surface_or_nowhere() {
+        let (mut beyond, mut refused) = (0, 0);
+        for step in 1..2000_i32 {
+            let component = |factor: i32| f32::from_i32(step * factor % 101) / 101.0 + 0.1;
+            let (normal, _) = Vec3::new(component(7), component(13), component(29))
+                .try_normalize()
+                .unwrap();
+            // A few units of rounding beside the opposite of the normal.
+            let units = |factor: i32| 1.0 + f32::EPSILON * f32::from_i32(step * factor % 5 - 2);
+            let incoming = Vec3::new(
+                -normal.x * units(3),
+                -normal.y * units(11),
+                -normal.z * units(17),
+            );
+            for eta in [1e4, 1e9, 1e18] {
+                match incoming.refract(normal, eta, (1.0 / eta - 1.0) * (1.0 / eta + 1.0)) {
+                    None => refused += 1,
+                    Some(direction) => {
+                        beyond += 1;
+                        let length = direction.dot(direction).sqrt();
+                        assert!((length - 1.0).abs() < 1e-6, "{incoming:?} at {normal:?}");
+                        assert!(
+                            direction.dot(normal) < 0.0,
+                            "{incoming:?} at {normal:?}: {direction:?}"
+                        );
+                    }
+                }
+            }
+        }
+        assert!(beyond > 500 && refused > 500, "{beyond}, {refused}");
+    }
 }

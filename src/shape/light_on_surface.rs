@@ -107,11 +107,11 @@ impl<T: Scalar> Sphere<T> {
         let is_between = |crossing: T| crossing < T::ZERO && crossing > -distance;
         let across = light - self.center();
         let from_surface = across.dot(across).sqrt() - self.radius();
-        if from_surface.abs() <= T::TWO * self.offset() {
-            // One of the crossings is the light itself.
-            return is_between(T::TWO * middle);
-        }
         let half_chord = half_chord_squared.sqrt();
+        if from_surface.abs() <= T::TWO * self.offset() {
+            // One of the crossings is the light itself; the other one is the farther of both.
+            return middle < T::ZERO && is_between(middle - half_chord);
+        }
         is_between(middle - half_chord) || is_between(middle + half_chord)
     }
 }

@@ -6,7 +6,8 @@ use crate::common::random::Random;
 use crate::common::sampling::{self, bits};
 use crate::common::scenes::{self, Model, Part, RoomyPools, Shape};
 use scanray::{
-    Background, Color, Light, MaterialDescription, Resolution, Scalar, ScenePools, Tracer, Vec3,
+    Background, Color, Light, MaterialDescription, Ray, Resolution, Scalar, ScenePools, Tracer,
+    Vec3,
 };
 
 /// Compares the picture of prepared pools with that of pools which know nothing of visibility.
@@ -463,4 +464,158 @@ fn spheres_smaller_than_the_rounding_of_their_places_have_the_same_bits() {
          0 -1.5 0 -2.5 1e9 .1 .1 .6 .5 .5 .5 1 1 1 .5 50 0 0\n\
          1 0 1 0 1 .5 .5 .5 .1 .1 .1 1 1 1 .3 50 0 0\n",
     ]);
+}
+
+/// A light that only rounding takes out of a sphere lies on its surface, and lights the inside: all of it, as one does that is in the
+/// sphere by as little.
+#[test]
+fn spheres_with_a_light_on_their_surface_have_the_same_bits() {
+    for (center, radius) in [(0.0, 1.0_f32), (0.0, 0.1), (0.0, 30.0), (2.5, 0.7)] {
+        for units in -40..=40 {
+            let height = radius * (1.0 + f32::EPSILON * units as f32) - center;
+            let text = format!(
+                "1\n0 {:e} {:e}\n8 8\n0 {height:e} 0 1 1 1 1 1 1\n0\n0\n0 0 0\n\
+                 0 0 {:e} 0 {radius:e} .5 .5 .5 .5 .5 .5 0 0 0 0 20 0 1.5\n",
+                -center,
+                -0.5 * radius,
+                -center,
+            );
+            compare_texts(&[&text]);
+            let mut pools: ScenePools = ScenePools::new();
+            pools.parse(text.as_bytes()).unwrap();
+            let tracer = Tracer::new(pools.as_scene()).with_resolution(Resolution {
+                width: 8,
+                height: 8,
+            });
+            let pixels = (0..8).flat_map(|y| (0..8).map(move |x| (x, y)));
+            let lit = pixels
+                .filter(|&(x, y)| tracer.pixel(x, y) != Color::BLACK)
+                .count();
+            // Rounding decides for all at once, and not on the surface.
+            assert!(lit == 64 || lit == 0 && units > 4, "{text}: {lit} lit");
+        }
+    }
+}
+
+/// A triangle near the origin, all but in whose plane lies what a ray along it hits: behind the plane by so little that rounding may
+/// take a ray there that leaves the front.
+#[test]
+fn objects_behind_a_triangle_by_rounding_have_the_same_bits() {
+    const MIRROR: &str = "0 0 0 0 0 0 .1 .1 .1 1 20 0 0";
+    const CLEAR: &str = "0 0 0 0 0 0 .1 .1 .1 0 20 1 1";
+    let mut hits = 0;
+    for (camera, triangle, material, other) in [
+        (
+            "-1.4037843e-1 -6.572165e-2 -5.1419612e-2",
+            "1.2571306e-3 1.7020165e-4 -1.8934425e-3 -4.2613684e-3 6.624084e-4 1.339165e-2 \
+             1.6549979e-3 1.0794348e-3 2.3201136e-3",
+            MIRROR,
+            "2 -7.922906e-2 5.977595e-2 5.160226e-1 6.484114e-1 3.5705197e-1 5.3843063e-1 \
+             -7.217603e-1 -3.597897e-1 -3.8748404e-1 0 0 0 0",
+        ),
+        (
+            "4.1444212e-2 3.529563e-2 -2.6687586e-3",
+            "-8.415266e-3 -5.230354e-3 -3.0593106e-3 -7.1062474e-4 7.4628205e-4 -2.467591e-3 \
+             1.5722719e-3 3.0899048e-3 -3.3573834e-3",
+            MIRROR,
+            "2 2.434786e-1 8.10092e-1 -1.1365671e0 -4.4375986e-1 -6.571209e-1 5.4779774e-1 \
+             -1.009302e0 -7.8245515e-1 -7.840651e-2 0 0 0 0",
+        ),
+        (
+            "2.6069746e0 8.356921e-1 -1.0685174e0",
+            "-3.4075182e-2 2.8688755e-2 9.2468215e-3 2.4749149e-2 -2.4265237e-2 -6.3075963e-3 \
+             2.2906679e-4 7.115482e-2 -8.562846e-3",
+            CLEAR,
+            "2 -5.730382e-1 -2.1193607e-1 2.3823562e-1 6.06007e-3 -7.705395e-1 8.9553185e-2 \
+             2.3351128e-1 6.608969e-1 -1.6553278e-1 0 0 0 0",
+        ),
+        (
+            "-2.605009e-1 -7.392292e-1 -9.6537894e-1",
+            "-1.0009283e-4 -3.0099228e-4 -4.4771453e-4 -6.2518736e-4 -1.3990095e-3 \
+             -6.1829516e-4 2.322699e-4 1.5857081e-4 -1.4058676e-3",
+            CLEAR,
+            "2 -1.906078e-2 2.315262e-3 1.8477993e-1 5.1547527e-2 1.4242889e-1 1.7359978e-1 \
+             2.485885e-2 9.101618e-2 1.848311e-1 0 0 0 0",
+        ),
+        (
+            "8.5638195e-1 -5.1537377e-1 -3.8555863e-1",
+            "-2.056573e-3 2.7109525e-4 -2.0319615e-2 2.2553733e-2 -1.2680287e-2 9.46646e-3 \
+             -2.5008002e-2 1.5591201e-2 2.315705e-2",
+            MIRROR,
+            "2 5.5103083e0 -3.0061133e0 4.333363e0 -1.9856435e-1 6.573356e-2 -1.0923519e0 \
+             -5.434385e0 3.232999e0 1.6238545e0 0 0 0 0",
+        ),
+        (
+            "1.6532615e-1 -2.7320227e-1 -1.5515156e0",
+            "-8.636615e-3 6.664414e-3 5.785022e-2 -1.2722896e-2 -6.8023703e-3 3.4535885e-2 \
+             -3.6862995e-2 -4.0284365e-2 3.7315458e-2",
+            CLEAR,
+            "0 -4.635033e0 3.2326288e0 -9.254051e-1 5.7245803e0",
+        ),
+        (
+            "4.8426547e0 -1.2482725e0 -2.72632e0",
+            "-6.391933e-3 -9.488381e-3 -6.424556e-3 -5.3591765e-3 1.20842036e-4 1.8825191e-3 \
+             -3.61092e-3 -7.91549e-3 -5.929303e-3",
+            CLEAR,
+            "0 -3.993341e-1 1.0671276e0 -1.1965215e0 1.6522156e0",
+        ),
+        (
+            "-7.1553755e-1 2.9363647e0 -1.1199952e-1",
+            "1.0450293e-3 -2.912127e-4 6.8051135e-4 7.300866e-4 9.848924e-5 5.144715e-4 \
+             7.080145e-4 -1.113946e-3 3.4250837e-4",
+            CLEAR,
+            "0 -5.101742e0 -1.0292214e0 7.449544e0 9.087251e0",
+        ),
+        (
+            "-1.3136482e-1 -6.367054e-2 -2.5119478e-1",
+            "4.919902e-3 -1.1551115e-2 1.1210073e-2 5.4470054e-3 5.4795146e-3 1.0048502e-2 \
+             5.660629e-4 -6.7894734e-3 1.9959714e-3",
+            CLEAR,
+            "2 2.0687711e0 -6.2804234e-1 4.1667886e0 -1.2625448e0 -3.4385207e0 -2.0485914e0 \
+             3.8636202e-1 4.3914433e0 1.9508101e-1 0 0 0 0",
+        ),
+        (
+            "-1.549192e-1 3.1429315e-1 -1.7853737e0",
+            "-1.6783902e-3 -4.9835868e-5 -3.5531747e-3 1.6530704e-3 -2.70334e-4 4.9593793e-3 \
+             2.618878e-3 1.7861595e-3 -2.2635334e-3",
+            MIRROR,
+            "2 -4.851699e-2 -6.6860884e-2 1.9627315e-1 1.6875249e-1 9.851531e-2 -7.008413e-2 \
+             2.9568875e-1 1.4627919e-1 -2.4223726e-3 0 0 0 0",
+        ),
+        (
+            "-8.36732e-3 -4.364056e-3 -9.172002e-2",
+            "9.272098e-4 -2.4541947e-3 -3.040229e-3 5.2275584e-4 -1.4210952e-4 3.8661107e-3 \
+             -6.6794414e-4 5.812617e-4 -3.1434877e-3",
+            MIRROR,
+            "2 6.3827205e-1 -1.1730609e0 2.2793943e-1 -5.4549026e-1 1.4531665e0 1.8305424e0 \
+             -1.1754276e0 1.9581112e0 -1.3284304e0 0 0 0 0",
+        ),
+        (
+            "1.0754704e0 -6.566896e-1 -3.3037296e-1",
+            "-6.5357884e-4 4.3473832e-4 5.878755e-4 8.422097e-4 -4.483195e-4 4.571073e-4 \
+             1.1290067e-3 -6.737868e-4 -1.7755068e-4",
+            CLEAR,
+            "0 4.4363675e0 7.630894e0 -7.0092154e-1 8.854555e0",
+        ),
+    ] {
+        let text = format!(
+            "2\n{camera}\n8 8\n3 50 1 1 1 1 1 1 1\n1\n0\n0 0 0\n\
+             2 {triangle} 0 0 0 0 {material}\n{other} 0 0 0 0 0 0 .5 .5 .5 0 0 0 0\n"
+        );
+        let mut pools: ScenePools = ScenePools::new();
+        pools.parse(text.as_bytes()).unwrap();
+        let scene = pools.as_scene();
+        let [v1, v2, v3] = scene.triangles()[0].vertices();
+        let camera = scene.camera().position;
+        let target = (v1 + v2 + v3) * (1.0 / 3.0);
+        let (direction, _) = (target - camera).try_normalize().unwrap();
+        let ray = Ray::new(camera, direction);
+        let expected = Tracer::new(scene.without_accel()).radiance(ray);
+        let actual = Tracer::new(scene).radiance(ray);
+        assert_eq!(bits(actual), bits(expected), "{text}");
+        // The triangle's own colour and the other object's.
+        hits += u32::from(expected.r > 0.55);
+    }
+    // Which of them a ray hits is rounding, indeed.
+    assert!(hits > 4, "{hits}");
 }

@@ -8,5 +8,6 @@ mod candidates_special_positions;
 mod common;
 mod exclusions;
 mod intersections;
+mod permutations;
 mod thin_triangles;
 mod triangle_sizes;

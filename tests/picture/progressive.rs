@@ -229,6 +229,69 @@ fn what_a_display_refuses_is_drawn_again() {
 }
 
 #[test]
+fn a_refused_stretch_counts_as_not_drawn_and_is_complete_in_a_longer_buffer() {
+    let source = Coordinates::new(18, 11);
+    let picture: Picture<_, scanray::render::Exact<Rgb888>> = Picture::new(&source);
+    for (fails_at, room) in (0..30).flat_map(|fails_at| [1, 3, 7].map(|room| (fails_at, room))) {
+        let mut display = FailingDisplay::new(Canvas::new(18, 11), fails_at);
+        let mut progressive = Progressive::of(&picture);
+        let mut buffer = [Color::BLACK; 18];
+        let refused = loop {
+            let before = progressive;
+            let budget = Budget::Pixels(1);
+            // Less than a stretch at a time, and the whole of it when the last of its pixels is traced.
+            match progressive.draw(&picture, &mut display, &mut buffer[..room], budget) {
+                Ok(Progress::Done) => break None,
+                Ok(Progress::SoFar { .. }) => {}
+                Err(BusError { .. }) => break Some(before),
+            }
+        };
+        let Some(before) = refused else {
+            panic!("call {fails_at} was not made");
+        };
+        let pixels = |progressive: &Progressive| match progressive.progress() {
+            Progress::SoFar { pixels, .. } => pixels as usize,
+            Progress::Done => panic!("done in spite of an error"),
+        };
+        assert!(
+            pixels(&progressive) <= pixels(&before)
+                && pixels(&progressive) + room > pixels(&before),
+            "call {fails_at}, {room}: {progressive:?} after {before:?}"
+        );
+        // What the shorter buffer held of it is not asked for again.
+        buffer.fill(Color::BLACK);
+        let budget = Budget::Unlimited;
+        let progress = progressive.draw(&picture, &mut display, &mut buffer, budget);
+        assert_eq!(progress, Ok(Progress::Done));
+        assert_blocks::<scanray::render::Exact<Rgb888>>(&display.canvas, picture.resolution(), 1);
+    }
+}
+
+#[test]
+fn a_buffer_that_becomes_shorter_or_longer_shows_what_it_should() {
+    let random = Random::of_test(20_261_129);
+    for (width, height) in SIZES {
+        for _ in 0..20 {
+            let source = Coordinates::new(width, height);
+            let picture: Picture<_, scanray::render::Exact<Rgb888>> = Picture::new(&source);
+            let mut progressive = Progressive::of(&picture);
+            let mut canvas = Canvas::new(width, height);
+            let mut buffer = [Color::BLACK; 40];
+            loop {
+                // A part of the same buffer: a longer one holds what the shorter one did.
+                let part = &mut buffer[..1 + random.below(40)];
+                let budget = Budget::Pixels(1 + random.below(10) as u32);
+                let Ok(progress) = progressive.draw(&picture, &mut canvas, part, budget);
+                if progress == Progress::Done {
+                    break;
+                }
+            }
+            assert_blocks::<scanray::render::Exact<Rgb888>>(&canvas, picture.resolution(), 1);
+        }
+    }
+}
+
+#[test]
 fn scenes_end_with_the_bits_of_the_whole_picture() {
     let size = Resolution {
         width: 37,

@@ -130,3 +130,29 @@ fn numbers_at_the_end_of_the_range_make_a_bvh() {
     let mut nodes = heapless::Vec::<BvhNode, 64>::new();
     build(&scene(&spheres), &mut entries, nodes.as_mut_view());
 }
+
+/// A ray from the origin has no margin, nor has a box that is not built around anything.
+#[test]
+fn a_box_that_begins_at_the_farthest_distance_is_visited_and_one_beyond_it_is_not() {
+    for (axis, sign) in (0..3).flat_map(|axis| [(axis, 1.0_f32), (axis, -1.0)]) {
+        let along = |on: f32, across: f32| {
+            let coordinate = |other| if other == axis { on } else { across };
+            Vec3::new(coordinate(0), coordinate(1), coordinate(2))
+        };
+        let (near, far) = (along(2.0 * sign, -1.0), along(3.0 * sign, 1.0));
+        let content = NodeContent::Leaf { first: 0, count: 1 };
+        let node = BvhNode::new(
+            near.min_by_component(far),
+            near.max_by_component(far),
+            content,
+        );
+        let bvh = Bvh {
+            nodes: &[node],
+            entries: &[7],
+        };
+        let ray = Ray::new(Vec3::splat(0.0), along(sign, 0.0));
+        let visited = |t_max: f32| Walk::new(bvh, &ray).next_leaf(t_max, || ());
+        assert_eq!(visited(2.0), Some(&[7][..]), "axis {axis}, {sign}");
+        assert_eq!(visited(2.0_f32.next_down()), None, "axis {axis}, {sign}");
+    }
+}

@@ -205,3 +205,76 @@ impl<'p, T: Scalar> Part<'p, T> {
         (slab > margin && bounds < -(reach + margin)) || (slab < -margin && bounds > reach + margin)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::Color;
+    use crate::ray::Ray;
+    use crate::shape::{Geometry, ObjectInfo, Sphere};
+
+    /// [`PlaneGrid::cell`] cuts numbers off towards 0: places of up to a step below the first border have the first slab, too.
+    #[test]
+    fn every_place_with_a_cell_has_what_shades_it_among_its_occluders() {
+        let info = ObjectInfo {
+            material: 0,
+            number: 0,
+        };
+        let mut below_the_first_border = 0;
+        for turn in 0..3 {
+            // The axes exchanged in turn, so that the slabs lie across each pair of them.
+            let turned = |x: f32, y: f32, z: f32| match turn {
+                0 => Vec3::new(x, y, z),
+                1 => Vec3::new(y, z, x),
+                _ => Vec3::new(z, x, y),
+            };
+            let plane = Plane::new(turned(0.0, 1.0, 0.0), 0.0, info).unwrap();
+            let sphere = |x, y, z| Sphere::new(turned(x, y, z), 0.1, info).unwrap();
+            let spheres = [
+                sphere(-1.0, 1.2, 0.0),
+                sphere(1.0, 0.5, 0.9),
+                sphere(0.0, 0.3, -1.0),
+                sphere(0.2, 1.5, 1.1),
+            ];
+            let light = |x, z| Light {
+                position: turned(x, 10.0, z),
+                specular: Color::BLACK,
+                diffuse: Color::BLACK,
+            };
+            for light in [light(5.0, 0.0), light(-6.0, 2.0), light(0.5, 7.0)] {
+                let geometry = Geometry {
+                    spheres: &spheres,
+                    planes: core::slice::from_ref(&plane),
+                    ..Geometry::NONE
+                };
+                let scene = Source {
+                    geometry,
+                    lights: &[light],
+                    materials: &[],
+                };
+                let grid = plane_grid(&scene, &plane);
+                for (column, row) in (-60..60).flat_map(|row| (-60..60).map(move |x| (x, row))) {
+                    let coordinates = [column, row].map(|steps| steps as f32 / 20.0);
+                    let place = turned(coordinates[0], 0.0, coordinates[1]);
+                    let Some(cell) = grid.cell(place) else {
+                        continue;
+                    };
+                    let (direction, _) = (light.position - place).try_normalize().unwrap();
+                    let ray = Ray::new(place, direction);
+                    for (index, sphere) in spheres.iter().enumerate() {
+                        if sphere.intersect(&ray, f32::MAX).is_none() {
+                            continue;
+                        }
+                        assert!(
+                            cell.occluders().contains(index),
+                            "sphere {index} shades {place:?} from {light:?}"
+                        );
+                        let [u, v] = across(grid.normal_axis, place);
+                        below_the_first_border += usize::from(u < grid.low[0] || v < grid.low[1]);
+                    }
+                }
+            }
+        }
+        assert!(below_the_first_border > 0);
+    }
+}
