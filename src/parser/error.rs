@@ -210,8 +210,9 @@ impl fmt::Display for Range {
         f.write_str(match self {
             Self::Finite => "a finite number",
             Self::NotNegative => "a number of at least 0",
-            Self::Intensity => return write!(f, "a number from 0 to {:e}", Self::MAX_INTENSITY),
-            Self::Share => return write!(f, "a number from 0 to {:e}", Self::MAX_SHARE),
+            // As text: on a board floats are not formatted.
+            Self::Intensity => "a number from 0 to 1e30",
+            Self::Share => "a number from 0 to 1e6",
             Self::Whole { min, max } => {
                 return write!(f, "a whole number from {min} to {max} in digits only");
             }
@@ -236,13 +237,7 @@ impl fmt::Display for Range {
                     "{number}, because the pools are declared without {stages}"
                 );
             }
-            Self::RefractiveIndex => {
-                let [min, max] = Self::INDEX;
-                return write!(
-                    f,
-                    "a number from {min} to {max}, because the refraction is above 0"
-                );
-            }
+            Self::RefractiveIndex => "a number from 0.01 to 100, because the refraction is above 0",
         })
     }
 }
@@ -354,4 +349,21 @@ pub(super) fn place(text: &[u8], offset: usize) -> (u32, u32) {
         }
     }
     (line, column)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::format;
+
+    #[test]
+    fn ranges_are_told_as_they_are() {
+        let ends = |low: f32, high: f32| format!("a number from {low} to {high:e}");
+        let told = |range: Range| format!("{range}");
+        assert_eq!(told(Range::Intensity), ends(0.0, Range::MAX_INTENSITY));
+        assert_eq!(told(Range::Share), ends(0.0, Range::MAX_SHARE));
+        let [least, most] = Range::INDEX;
+        let index = format!("a number from {least} to {most}, because the refraction is above 0");
+        assert_eq!(told(Range::RefractiveIndex), index);
+    }
 }
