@@ -219,33 +219,64 @@ impl<T: Scalar> Triangle<T> {
         let (below, slope) = rise(self.normal.real(), (v1 - origin).real(), direction.real());
         let t = (below / slope).0;
         let t = if slope.0.abs().is_before(T::from_f64(GRAZING)) {
-            self.limited(t, turn, turn.apply(origin).z, turn.apply(direction).z)
+            self.limited(
+                turn,
+                t,
+                origin_x,
+                origin_y,
+                origin_z,
+                direction_x,
+                direction_y,
+                direction_z,
+            )
         } else {
             t
         };
         t.is_positive().then_some(t)
     }
 
-    /// A distance limited to where the vertices are along an axis, given what a ray has there; not a number remains none.
+    /// A distance limited to where the ray passes the vertices along the largest component of its direction, which the
+    /// hierarchy relies on, and to where it is in the bounding sphere, which all other exclusions rely on. Not a number remains none.
+    // The operators are the compiler's, which are smaller where floats are emulated.
     #[cold]
     #[inline(never)]
-    fn limited(&self, t: T, turn: Turn, origin: T, direction: T) -> T {
-        // Without arrays, which would be on the stack of every ray.
-        let [v1, v2, v3] = &self.vertices;
+    #[expect(clippy::too_many_arguments)]
+    fn limited(
+        &self,
+        turn: Turn,
+        t: T,
+        origin_x: T,
+        origin_y: T,
+        origin_z: T,
+        direction_x: T,
+        direction_y: T,
+        direction_z: T,
+    ) -> T {
+        let origin = Vec3::new(origin_x, origin_y, origin_z);
+        let d = Vec3::new(direction_x, direction_y, direction_z);
         let lesser = |a: T, b: T| if b < a { b } else { a };
         let greater = |a: T, b: T| if b > a { b } else { a };
-        let (v1, v2, v3) = match turn {
-            Turn::None => (v1.z, v2.z, v3.z),
-            Turn::XToZ => (v1.x, v2.x, v3.x),
-            Turn::YToZ => (v1.y, v2.y, v3.y),
+        // `closest_approach`.
+        let f = self.bounds_center - origin;
+        let middle = f.x * d.x + f.y * d.y + f.z * d.z;
+        let l = f - d * middle;
+        let across = l.x * l.x + l.y * l.y + l.z * l.z;
+        let half_chord = (self.bounds_radius_squared - across).sqrt();
+        let [v1, v2, v3] = &self.vertices;
+        let (v1, v2, v3, origin, direction) = match turn {
+            Turn::None => (v1.z, v2.z, v3.z, origin.z, d.z),
+            Turn::XToZ => (v1.x, v2.x, v3.x, origin.x, d.x),
+            Turn::YToZ => (v1.y, v2.y, v3.y, origin.y, d.y),
         };
-        let (lowest, highest) = (lesser(lesser(v1, v2), v3), greater(greater(v1, v2), v3));
-        let (lowest, highest) = (lowest - origin, highest - origin);
-        let along = t * direction;
-        if along < lowest {
-            lowest / direction
-        } else if along > highest {
-            highest / direction
+        let lowest = (lesser(lesser(v1, v2), v3) - origin) / direction;
+        let highest = (greater(greater(v1, v2), v3) - origin) / direction;
+        // Comparisons with NaN, of a ray that passes by the sphere, keep what is there.
+        let first = greater(lesser(lowest, highest), middle - half_chord);
+        let last = lesser(greater(lowest, highest), middle + half_chord);
+        if t < first {
+            first
+        } else if t > last {
+            last
         } else {
             t
         }

@@ -497,6 +497,32 @@ fn spheres_with_a_light_on_their_surface_have_the_same_bits() {
     }
 }
 
+/// Found by a search: the ray comes to the first triangle edge-on, and has passed it for good. What its plane tells is limited to the
+/// triangle's bounding sphere, which is behind the ray.
+#[test]
+fn a_triangle_that_is_seen_edge_on_is_hit_nowhere_but_in_its_bounds() {
+    let text = "2\n1.2840706e0 1.1663839e0 -6.94865e-1\n8 8\n3 50 1 1 1 1 1 1 1\n1\n0\n0 0 0\n\
+        2 7.812001e-4 5.096922e-4 7.80004e-4 -1.116028e-3 -7.28554e-4 -1.111888e-3 -1.1446606e-3 -7.8129716e-4 -9.3554513e-4 \
+        0 0 0 0 0 0 0 0 0 0 .1 .1 .1 0 20 1 1\n\
+        2 -1.6026819e-3 1.0140328e-2 -6.889999e-2 5.86568e-2 4.520477e-2 1.684736e-2 6.399743e-2 6.775515e-2 -9.252885e-2 \
+        0 0 0 0 0 0 0 0 0 0 .5 .5 .5 0 0 0 0\n";
+    let mut pools: ScenePools = ScenePools::new();
+    pools.parse(text.as_bytes()).unwrap();
+    let scene = pools.as_scene();
+    let [v1, v2, v3] = scene.triangles()[0].vertices();
+    let camera = scene.camera().position;
+    let (toward, _) = ((v1 + v2 + v3) * (1.0 / 3.0) - camera)
+        .try_normalize()
+        .unwrap();
+    let ray = Ray::new(camera, toward);
+    let prepared = Tracer::new(scene).radiance(ray);
+    assert_eq!(
+        bits(prepared),
+        bits(Tracer::new(scene.without_accel()).radiance(ray))
+    );
+    assert_ne!(prepared, Color::BLACK, "the first triangle is hit");
+}
+
 /// A triangle near the origin, all but in whose plane lies what a ray along it hits: behind the plane by so little that rounding may
 /// take a ray there that leaves the front.
 #[test]

@@ -17,10 +17,9 @@
 //!   point `q = o + t·d` lies within `8u(|o| + |c| + r)` of the sphere.
 //! * A triangle's test moves each vertex by at most `4u(|o| + |c| + r)` across the ray, and then decides
 //!   without error whether the ray passes through the moved triangle: the ray's line passes the triangle
-//!   at most that far away. The reported `t` is a mean of the vertices' distances with weights of one
-//!   sign: even where the triangle is seen edge-on, so that the weights have no correct digit, it lies
-//!   between the vertices' distances, which are measured along the ray's largest component, the *leading
-//!   axis*.
+//!   at most that far away. The reported `t` is that of the triangle's plane; where the triangle is seen
+//!   edge-on, so that it has no correct digit, it is limited to what lies between the vertices' distances, which
+//!   are measured along the ray's largest component, the *leading axis*.
 //! * The walk computes where the line enters and leaves the slab between two coordinates of a box as
 //!   `(coordinate − oᵢ)·(1/dᵢ)`, with three roundings, which is what the exact expression gives for a
 //!   coordinate moved by at most `2u(|oᵢ| + |coordinate|)`.

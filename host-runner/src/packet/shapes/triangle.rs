@@ -65,7 +65,14 @@ impl LaneShape for Triangle {
         let mut t = below / slope;
         let grazing = slope.abs().simd_lt(GRAZING as f32);
         if (grazing & inside).any_true() {
-            let limited = limited(t, turn.apply(rays.direction).z, [v1.z, v2.z, v3.z]);
+            let center = Vec3s::in_every_lane(simd, bounds.center);
+            let limited = limited(
+                t,
+                closest_approach(center, rays.origin, rays.direction),
+                Numbers::splat(simd, bounds.radius_squared),
+                turn.apply(rays.direction).z,
+                [v1.z, v2.z, v3.z],
+            );
             t = Numbers::select(grazing, limited, t);
         }
         Some(Intersection { lanes: inside, t })
@@ -91,15 +98,24 @@ fn may_hit<S: Simd>(simd: S, bounds: Bounds, rays: &Rays<S>) -> Mask<S> {
     across.simd_le(reach(Numbers::splat(simd, bounds.radius_squared), b))
 }
 
-/// The core's `limited`.
+/// The core's `limited`, given what has been turned so that the largest component is z.
 #[inline(always)]
-fn limited<S: Simd>(t: Numbers<S>, slope: Numbers<S>, [v1, v2, v3]: [Numbers<S>; 3]) -> Numbers<S> {
+fn limited<S: Simd>(
+    t: Numbers<S>,
+    (middle, across): (Numbers<S>, Numbers<S>),
+    radius_squared: Numbers<S>,
+    direction: Numbers<S>,
+    [v1, v2, v3]: [Numbers<S>; 3],
+) -> Numbers<S> {
     let lesser = |a: Numbers<S>, b: Numbers<S>| Numbers::select(b.simd_lt(a), b, a);
     let greater = |a: Numbers<S>, b: Numbers<S>| Numbers::select(b.simd_gt(a), b, a);
-    let along = t * slope;
-    let (lowest, highest) = (lesser(lesser(v1, v2), v3), greater(greater(v1, v2), v3));
-    let raised = Numbers::select(along.simd_lt(lowest), lowest / slope, t);
-    Numbers::select(along.simd_gt(highest), highest / slope, raised)
+    let half_chord = (radius_squared - across).sqrt();
+    let lowest = lesser(lesser(v1, v2), v3) / direction;
+    let highest = greater(greater(v1, v2), v3) / direction;
+    let first = greater(lesser(lowest, highest), middle - half_chord);
+    let last = lesser(greater(lowest, highest), middle + half_chord);
+    let raised = Numbers::select(t.simd_lt(first), first, t);
+    Numbers::select(t.simd_gt(last) & !t.simd_lt(first), last, raised)
 }
 
 /// The core's `Turn`, as the lanes that turn each way.
