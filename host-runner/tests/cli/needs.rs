@@ -54,6 +54,8 @@ fn json_adds_up() {
         // Each pool has a length of 4 bytes.
         sum += number(&pool["bytes"]) + 4;
     }
+    // Whether all lights are off all surfaces, aligned.
+    sum += 4;
     assert_eq!(number(&json["scene_pools"]), sum);
     assert_eq!(json["pools_type"], "ScenePools<f32, 5, 1, 1, 5, 1, 7>");
     assert_eq!(json["rows"][2]["color"], "rgb565");
