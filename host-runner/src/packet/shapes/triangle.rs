@@ -46,10 +46,12 @@ impl LaneShape for Triangle {
         }
         let turn = Turn::largest_to_z(rays.direction);
         let shear = Shear::along(turn.apply(rays.direction));
-        let to_vertices = self
-            .vertices()
-            .map(|vertex| Vec3s::in_every_lane(simd, vertex) - rays.origin);
-        let [v1, v2, v3] = to_vertices.map(|to_vertex| turn.apply(to_vertex));
+        // Without closures, which would be compiled without the instructions that lanes need.
+        let [v1, v2, v3] = self.vertices();
+        let to_v1 = Vec3s::in_every_lane(simd, v1) - rays.origin;
+        let v1 = turn.apply(to_v1);
+        let v2 = turn.apply(Vec3s::in_every_lane(simd, v2) - rays.origin);
+        let v3 = turn.apply(Vec3s::in_every_lane(simd, v3) - rays.origin);
         let (a, b, c) = (shear.apply(v1), shear.apply(v2), shear.apply(v3));
         let u = signed_edge(c, b, lanes);
         let v = signed_edge(a, c, lanes);
@@ -61,7 +63,7 @@ impl LaneShape for Triangle {
             return None;
         }
         let normal = Vec3s::in_every_lane(simd, self.normal());
-        let (below, slope) = rise(normal, to_vertices[0], rays.direction);
+        let (below, slope) = rise(normal, to_v1, rays.direction);
         let mut t = below / slope;
         let grazing = slope.abs().simd_lt(GRAZING as f32);
         if (grazing & inside).any_true() {
@@ -98,6 +100,18 @@ fn may_hit<S: Simd>(simd: S, bounds: Bounds, rays: &Rays<S>) -> Mask<S> {
     across.simd_le(reach(Numbers::splat(simd, bounds.radius_squared), b))
 }
 
+/// The lesser of two numbers; the first where they do not compare.
+#[inline(always)]
+fn lesser<S: Simd>(a: Numbers<S>, b: Numbers<S>) -> Numbers<S> {
+    Numbers::select(b.simd_lt(a), b, a)
+}
+
+/// The greater of two numbers; the first where they do not compare.
+#[inline(always)]
+fn greater<S: Simd>(a: Numbers<S>, b: Numbers<S>) -> Numbers<S> {
+    Numbers::select(b.simd_gt(a), b, a)
+}
+
 /// The core's `limited`, given what has been turned so that the largest component is z.
 #[inline(always)]
 fn limited<S: Simd>(
@@ -107,8 +121,6 @@ fn limited<S: Simd>(
     direction: Numbers<S>,
     [v1, v2, v3]: [Numbers<S>; 3],
 ) -> Numbers<S> {
-    let lesser = |a: Numbers<S>, b: Numbers<S>| Numbers::select(b.simd_lt(a), b, a);
-    let greater = |a: Numbers<S>, b: Numbers<S>| Numbers::select(b.simd_gt(a), b, a);
     let half_chord = (radius_squared - across).sqrt();
     let lowest = lesser(lesser(v1, v2), v3) / direction;
     let highest = greater(greater(v1, v2), v3) / direction;
