@@ -43,7 +43,13 @@ fn main() {
     let without = env::var("SCANRAY_WITHOUT").unwrap_or_else(|_| "NONE".into());
     let accel = match without.as_str() {
         // What nothing walks takes no flash either.
-        "BVH" => Accel::from_parts(accel.sides(), accel.grids(), &[], &[], accel.lights_are_clear()),
+        "BVH" => Accel::from_parts(
+            accel.sides(),
+            accel.grids(),
+            &[],
+            &[],
+            accel.lights_are_clear(),
+        ),
         _ => accel,
     };
     // A power of another kind changes nothing that is derived.
