@@ -78,7 +78,7 @@ fn the_table_names_the_cases_and_counts_the_figures() {
         table.ends_with("2 figures, 0 beyond their bound\n"),
         "{table}"
     );
-    let run = folder.run(&["stability", "71"]);
+    let run = folder.run(&["stability", "74"]);
     assert_eq!(run.code, 2, "{}", run.stderr);
 }
 
