@@ -137,7 +137,8 @@ fn differences((name, text, depths, bright, dim): Case<'_>) -> Vec<String> {
         ("bright", text.clone(), bright),
         ("dim", dimmed(&text, 0.3), dim),
     ] {
-        for (depth, size) in depths.iter().zip([[160, 120], [97, 41], [60, 80]]) {
+        // With 97 columns rays of window-room pass exactly through the corners where its ceiling and walls meet, which rounding decides.
+        for (depth, size) in depths.iter().zip([[160, 120], [99, 41], [60, 80]]) {
             let shares = folder
                 .shares(&text, size, depth)
                 .map(|share| share * 1000.0);
@@ -187,7 +188,7 @@ fn povray_draws_the_same() {
             scene("window-room"),
             all,
             [10.0, 3.0],
-            [3.0, 1.25],
+            [3.0, 1.0],
         ),
         ("mixture", MIXTURE.to_owned(), all, [3.0, 1.0], [3.0, 1.0]),
     ];
